@@ -8,11 +8,12 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "law/range.hpp"
+#include "law/plan_notes.hpp"
 #include "liggghts_plugin/contact/contact_counts.hpp"
 #include "liggghts_plugin/contact/normal_physics.hpp"
 #include "liggghts_plugin/contact/pair_table.hpp"
 #include "liggghts_plugin/contact/superquadric.hpp"
+#include "liggghts_plugin/deck/loaded_law.hpp"
 #include "liggghts_plugin/deck/session.hpp"
 #include "liggghts_plugin/engine/liggghts.hpp"
 
@@ -356,24 +357,22 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     const double speed = approach(sidata);
     entry.counts->overlap_max = std::max(entry.counts->overlap_max, sidata.deltan / r_eff);
     stop_one(lmp, fmt::format("{}: overlap/R* {:.4g} of types {} and {} {} {:.4g} m/s is more than 5 % beyond "
-                              "the law's table, which ends at {:.4g}: {}, or say 'beyondRange continue'",
+                              "the law's table, which ends at {:.4g}{}, or say 'beyondRange continue'",
                               setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype,
                               speed < 0 ? "parting at" : "at", std::abs(speed), entry.largest_overlap,
                               remedy(entry, sidata.deltan / r_eff)));
   }
 
-  /// A deeper law, where laws go so deep.
-  static std::string remedy(const Entry& entry, double overlap)
+  /// " (what was planned): what holds this overlap".
+  std::string remedy(const Entry& entry, double overlap) const
   {
     if constexpr (requires { entry.contact.law().curve->end(); }) {
-      const double depth = overlap / entry.largest_overlap * entry.contact.law().curve->end();
-      if (depth > deepest_law)
-        return fmt::format(
-            "no law goes beyond {:g} of the radius: the material is too soft for these speeds or loads; where "
-            "youngs_modulus is lowered for the time step, give the real one",
-            deepest_law);
+      const granulaw::Law& law = setup_->law->law;
+      const std::string &a = entry.counts->info.a, &b = entry.counts->info.b, planned = planned_text(law, a, b, stretch_);
+      return fmt::format("{}: {}", planned.empty() ? "" : " (" + planned + ")",
+                         remedy_beyond(law, a, b, overlap / stretch_, entry.largest_overlap / stretch_, entry.contact.law().curve->end()));
     }
-    return "build a deeper law";
+    return ": build a deeper law";
   }
 
   /// In a library with another layout of SurfacesIntersectData these two would not agree.

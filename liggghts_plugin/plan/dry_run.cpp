@@ -102,7 +102,7 @@ constexpr int index_style = 0;  // of an index variable: its words are as the de
 const std::regex& run_values()
 {
   static const std::regex pattern(
-      R"((^|[^A-Za-z0-9_])([cf]_[A-Za-z0-9_]+|(ke|pe|etotal|temp|press|enthalpy|atoms|evdwl|erot|cpu|tpcpu|spcpu|pxx|pyy|pzz)($|[^A-Za-z0-9_])|(ke|xcm|vcm|fcm|bound|gyration|angmom|count|mass)\())");
+      R"((^|[^A-Za-z0-9_])([cf]_[A-Za-z0-9_]+(\[[^\]]*\])*|(ke|pe|etotal|temp|press|enthalpy|atoms|evdwl|erot|cpu|tpcpu|spcpu|pxx|pyy|pzz)($|[^A-Za-z0-9_])|(ke|xcm|vcm|fcm|bound|gyration|angmom|count|mass)\())");
   return pattern;
 }
 
@@ -111,24 +111,27 @@ class RunValues
  public:
   explicit RunValues(LAMMPS_NS::Variable* variables) : variables_(variables) {}
 
-  bool in(const std::string& text)
+  /// The first one in the text; empty: there is none.
+  std::string in(const std::string& text)
   {
-    if (std::regex_search(text, run_values())) return true;
+    std::smatch own;
+    if (std::regex_search(text, own, run_values())) return own[2];
     static const std::regex names(R"(\$\{([A-Za-z0-9_]+)\}|\$([A-Za-z0-9_])|v_([A-Za-z0-9_]+))");
     for (std::sregex_iterator at(text.begin(), text.end(), names), end; at != end; ++at)
       for (int group = 1; group <= 3; ++group)
-        if ((*at)[group].matched && of_variable((*at)[group].str())) return true;
-    return false;
+        if ((*at)[group].matched)
+          if (std::string of_it = of_variable((*at)[group].str()); !of_it.empty()) return of_it;
+    return {};
   }
 
  private:
-  bool of_variable(std::string name)
+  std::string of_variable(std::string name)
   {
-    if (!seen_.insert(name).second) return false;
+    if (!seen_.insert(name).second) return {};
     const int at = variables_->find(name.data());
-    if (at < 0 || (variables_->*exposed(VariableStyles{}))[at] == index_style) return false;
+    if (at < 0 || (variables_->*exposed(VariableStyles{}))[at] == index_style) return {};
     char** data = (variables_->*exposed(VariableData{}))[at];
-    return data && data[0] && in(data[0]);
+    return data && data[0] ? in(data[0]) : std::string();
   }
 
   LAMMPS_NS::Variable* variables_;
@@ -137,11 +140,11 @@ class RunValues
 
 }  // namespace
 
-bool branches_on_run(LAMMPS_NS::Variable* variables, const std::string& line)
+std::string run_value_of_branch(LAMMPS_NS::Variable* variables, const std::string& line)
 {
   static const std::regex condition(R"(^\s*if\s+(.*?)\s+then\s)");
   std::smatch found;
-  return std::regex_search(line, found, condition) && RunValues(variables).in(found[1].str());
+  return std::regex_search(line, found, condition) ? RunValues(variables).in(found[1].str()) : std::string();
 }
 
 }  // namespace plan

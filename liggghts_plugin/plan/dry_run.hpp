@@ -25,8 +25,8 @@ void replace_styles(LAMMPS_NS::LAMMPS* lmp);
 /// Puts styles without forces in the place of all of `pair_style gran` and `fix wall/gran`.
 void replace_contacts();
 
-/// True of an `if` whose condition contains a value that only a run has: of a compute, a fix, a thermo
-/// keyword, or of a variable that is computed from one.
-bool branches_on_run(LAMMPS_NS::Variable* variables, const std::string& line);
+/// The value that only a run has in the condition of an `if`: of a compute, a fix, a thermo keyword, also by a
+/// variable that is computed from it. Empty: it has none, or the line is no `if`.
+std::string run_value_of_branch(LAMMPS_NS::Variable* variables, const std::string& line);
 
 }  // namespace granulaw::plugin::plan

@@ -15,6 +15,12 @@ extern "C" __attribute__((visibility("default"))) void granulaw_plan_line(const 
   Planner::current()->begin_line(where, text);
 }
 
+/// LIGGGHTS evaluated a condition of `if`; the value that it goes by.
+extern "C" __attribute__((visibility("default"))) double granulaw_plan_decide(double value)
+{
+  return Planner::current() ? Planner::current()->decide(value) : value;
+}
+
 extern "C" __attribute__((visibility("default"))) void granulaw_plan_file(const char* path, bool is_written)
 {
   Planner::current()->note_file(path, is_written);

@@ -15,6 +15,7 @@
 #include "fix_property_global.h"
 #include "fix_template_sphere.h"
 #include "input.h"
+#include "mesh_module_stress_servo.h"
 #include "liggghts_plugin/contact/thornton_physics.hpp"
 #include "liggghts_plugin/deck/options.hpp"
 #include "liggghts_plugin/deck/session.hpp"
@@ -36,11 +37,13 @@ GRANULAW_EXPOSE(PrimitiveType, LAMMPS_NS::PrimitiveWall, wType);
 GRANULAW_EXPOSE(PrimitiveNumbers, LAMMPS_NS::PrimitiveWall, param);
 GRANULAW_EXPOSE(IsSheared, LAMMPS_NS::FixWallGran, shear_);
 GRANULAW_EXPOSE(ShearSpeed, LAMMPS_NS::FixWallGran, vshear_);
+GRANULAW_EXPOSE(ShearDimension, LAMMPS_NS::FixWallGran, shearDim_);
 GRANULAW_EXPOSE(ShearAxis, LAMMPS_NS::FixWallGran, shearAxis_);
 GRANULAW_EXPOSE(HasTotal, LAMMPS_NS::FixInsert, ninsert_exists);
 GRANULAW_EXPOSE(InsertionTotal, LAMMPS_NS::FixInsert, ninsert);
 GRANULAW_EXPOSE(Inserted, LAMMPS_NS::FixInsert, ninserted);
 GRANULAW_EXPOSE(EachInsertion, LAMMPS_NS::FixInsert, ninsert_per);
+GRANULAW_EXPOSE(AllIn, LAMMPS_NS::FixInsert, all_in_flag);
 GRANULAW_EXPOSE(VelocityStyle, LAMMPS_NS::FixInsert, v_randomSetting);
 GRANULAW_EXPOSE(MeanVelocity, LAMMPS_NS::FixInsert, v_insert);
 GRANULAW_EXPOSE(VelocitySpread, LAMMPS_NS::FixInsert, v_insertFluct);
@@ -50,6 +53,7 @@ GRANULAW_EXPOSE(PackFraction, LAMMPS_NS::FixInsertPack, volumefraction_region);
 GRANULAW_EXPOSE(PackNumber, LAMMPS_NS::FixInsertPack, ntotal_region);
 GRANULAW_EXPOSE(PackMass, LAMMPS_NS::FixInsertPack, masstotal_region);
 GRANULAW_EXPOSE(NumberShares, LAMMPS_NS::FixParticledistributionDiscrete, distweight);
+GRANULAW_EXPOSE(ServoSpeed, LAMMPS_NS::MeshModuleStressServo, vel_max_);
 GRANULAW_EXPOSE(TemplateDensity, LAMMPS_NS::FixTemplateSphere, pdf_density);
 
 namespace plan {
@@ -69,6 +73,14 @@ double norm(const std::array<double, 3>& v)
 {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
+
+double along(const std::array<double, 3>& v, const std::array<double, 3>& axis)
+{
+  return v[0] * axis[0] + v[1] * axis[1] + v[2] * axis[2];
+}
+
+/// Part of a motion that may go against gravity where the deck rounds its numbers.
+constexpr double level = 1e-3;
 
 bool begins(const char* text, const char* with)
 {
@@ -178,9 +190,36 @@ void Planner::begin_line(const std::string& where, const std::string& text)
   stop_where_late();
   where_ = where;
   crash_ = Record::json_of_stop(where);
-  if ((lmp_->input->*exposed(SoughtLabel{})) != 0 || !branches_on_run(lmp_->input->variable, text)) return;
-  record_.note(where + ": the branch depends on a value of a run: it takes the side of the start");
-  if (text.find("jump") != std::string::npos) record_.left_loop = where;
+  loops_.pass_on();
+  if ((lmp_->input->*exposed(SoughtLabel{})) != 0) return;  // a jump goes past it
+  if (const std::string value = run_value_of_branch(lmp_->input->variable, text); !value.empty())
+    begin_branch(value, text.find("jump") != std::string::npos);
+}
+
+void Planner::begin_branch(const std::string& value, bool jumps)
+{
+  const std::string branch = where_ + ": the branch depends on a value of a run: it takes the side of the start";
+  if (!jumps) return record_.note(branch);
+  record_.left_loop = where_;
+  if (!loops_.arrive(where_, record_.runs.size(), places_now())) {
+    if (!loops_.inside()) record_.note(branch);
+    return;
+  }
+  std::erase(record_.notes, branch);
+  record_.note(fmt::format("{}: the loop waits for {}, which only a simulation has: the plan leaves it where its meshes have "
+                           "passed the particles or nothing new comes",
+                           where_, value));
+}
+
+WaitingLoops::Places Planner::places_now() const
+{
+  WaitingLoops::Places places;
+  each_fix([&](lmp::Fix& fix) {
+    auto* mesh = dynamic_cast<lmp::FixMeshSurface*>(&fix);
+    if (mesh && is_moved(lmp_, *mesh)) places.meshes[mesh->id] = look_at(*mesh).box;
+  });
+  for (int i = 0; i < lmp_->atom->nlocal; ++i) places.centres.include(Box::Point{lmp_->atom->x[i][0], lmp_->atom->x[i][1], lmp_->atom->x[i][2]});
+  return places;
 }
 
 /// The last one: LIGGGHTS's words of it stand until it parses the next line.
@@ -297,6 +336,14 @@ void Planner::find_materials()
   });
 }
 
+/// Against gravity; 0 without gravity.
+Box::Point Planner::upward() const
+{
+  const double g = norm(record_.gravity);
+  if (g == 0) return {};
+  return {-record_.gravity[0] / g, -record_.gravity[1] / g, -record_.gravity[2] / g};
+}
+
 Wall& Planner::wall(const std::string& where, const std::string& id)
 {
   for (Wall& w : record_.walls)
@@ -330,6 +377,8 @@ void Planner::add_mesh_wall(const lmp::FixWallGran& fix, lmp::FixMeshSurface& me
   w.deformable = style.deformable;
   if (std::strstr(mesh.style, "servo") || std::strstr(mesh.style, "6dof"))
     record_.ask_speed(fmt::format("{}: fix {}: forces move the mesh", w.where, mesh.style));
+  if (auto* servo = dynamic_cast<lmp::MeshModuleStressServo*>(mesh.get_module("servo")))
+    w.speed = w.push_speed = std::max(w.speed, servo->*exposed(ServoSpeed{}));
 }
 
 void Planner::add_primitive_wall(lmp::FixWallGran& fix)
@@ -359,6 +408,11 @@ void Planner::add_primitive_wall(lmp::FixWallGran& fix)
   // shear of a cylinder across its axis is a turn, in rad per time
   const bool turns = shape > ZPLANE && fix.*exposed(ShearAxis{}) >= 0;
   w.drag_speed = std::max(w.drag_speed, std::abs(fix.*exposed(ShearSpeed{})) * (turns ? numbers[0] : 1.0));
+  // what it drags against gravity it may carry to its top
+  const Box::Point up = upward();
+  const double aside = turns ? std::sqrt(std::max(0.0, 1 - std::pow(up[static_cast<std::size_t>(shape - XCYLINDER)], 2)))
+                             : std::abs(up[static_cast<std::size_t>(fix.*exposed(ShearDimension{}))]);
+  if (aside > level) w.lift = w.box.top(up) - w.box.bottom(up);
 }
 
 void Planner::look_at_meshes(bool moving)
@@ -371,17 +425,28 @@ void Planner::look_at_meshes(bool moving)
       Wall& w = wall(where(mesh), mesh.id);
       const MeshView view = look_at(mesh);
       w.box.include(view.box);
-      if (mesh.surfaceVel())
-        w.drag_speed = std::max(w.drag_speed, view.speed);
-      else if (moving && is_moved(lmp_, mesh))
-        w.speed = std::max(w.speed, view.speed);
+      const bool drags = mesh.surfaceVel();
+      if (!drags && !(moving && is_moved(lmp_, mesh))) continue;
+      MeshMotion& motion = motions_[w.where + " " + w.id];
+      motion.look(view.corners, view.velocities, upward());
+      if (drags) {
+        w.drag_speed = std::max(w.drag_speed, motion.speed());
+        const Box::Point up = upward();
+        for (const auto& triangle : view.velocities)
+          if (norm(up) > 0 && std::abs(along(triangle[0], up)) > level * motion.speed()) w.lift = w.box.top(up) - w.box.bottom(up);
+        continue;
+      }
+      w.speed = std::max(w.speed, motion.speed());
+      w.push_speed = std::max(w.push_speed, motion.push_speed());
+      w.level_push_speed = std::max(w.level_push_speed, motion.level_push_speed());
+      w.lift = std::max(w.lift, motion.lift());
     }
   });
 }
 
 void Planner::move_meshes(double steps)
 {
-  sweep(lmp_, steps, [&] { look_at_meshes(true); });
+  sweep(lmp_, steps * loops_.stride(), [&] { look_at_meshes(true); });
 }
 
 /// Fixes that give velocities which no first step shows.
@@ -481,6 +546,7 @@ Planner::Insertion& Planner::insertion_of(lmp::FixInsert& fix)
       s.radius_max = t.max_rad();
       s.density = density_of(t);
       s.centres = place_of(fix, record_.domain);
+      if (fix.*exposed(AllIn{})) s.centres = s.centres.shrunk(t.number_spheres() > 1 ? 0.0 : t.min_rad());
       s.speed = largest_speed(fix);
       in.sources.push_back(record_.sources.size());
       in.shares.push_back(share / (t.maxtype() - t.mintype() + 1));
@@ -574,6 +640,10 @@ void Planner::stop_where_nothing_is_new()
   runs_without_news_ = now == fingerprint_ ? runs_without_news_ + 1 : 0;
   fingerprint_ = std::move(now);
   if (runs_without_news_ < most_runs) return;
+  if (loops_.inside()) {
+    runs_without_news_ = 0;
+    return loops_.find_nothing_new();
+  }
   record_.left_loop = where_;
   record_.note(fmt::format(
       "{}: {} runs in turn bring nothing new: the plan leaves the loop and the deck here, and its "
@@ -598,7 +668,9 @@ bool Planner::finish(int status)
   // `quit` ends as an error does
   const char* command = status == 0 ? nullptr : lmp_->input->*exposed(InputCommand{});
   const bool ended = status == 0 || (command && std::strcmp(command, "quit") == 0);
-  if (!ended)
+  if (!ended && loops_.inside())
+    record_.note(fmt::format("{}: LIGGGHTS stops in a loop that waits for a value of a simulation: the plan ends there", where_));
+  else if (!ended)
     record_.stopped_at = where_;
   else
     record_command(), after_command(), record_without_run();
@@ -607,7 +679,7 @@ bool Planner::finish(int status)
   std::size_t done = 0;
   for (ssize_t n; out >= 0 && done < text.size(); done += static_cast<std::size_t>(n))
     if ((n = write(out, text.data() + done, text.size() - done)) <= 0) break;
-  if (out >= 0 && done == text.size() && close(out) == 0) return ended;
+  if (out >= 0 && done == text.size() && close(out) == 0) return record_.stopped_at.empty();
   std::fprintf(stderr, "ERROR: %s: cannot be written\n", file_.c_str());
   return false;
 }

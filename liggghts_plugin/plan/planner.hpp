@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "liggghts_plugin/engine/liggghts.hpp"
+#include "liggghts_plugin/plan/mesh_motion.hpp"
 #include "liggghts_plugin/plan/record.hpp"
+#include "liggghts_plugin/plan/waiting_loops.hpp"
 
 // `liggghts-mpm -plan FILE -in DECK`: LIGGGHTS reads the deck and sets up every run, but takes two of its
 // steps alone, the first and the last. No force acts in contact: no law is needed to plan. What is in memory
@@ -29,6 +31,8 @@ class Planner
 
   /// The next command of the deck, as it stands there: all before it have been executed.
   void begin_line(const std::string& where, const std::string& text);
+  /// The value that LIGGGHTS goes by where its own of a condition is `value`.
+  double decide(double value) { return loops_.decide(value); }
   /// A file is opened.
   void note_file(const std::string& path, bool is_written) { record_.add_file(path, is_written); }
   /// A run that is set up, before its first step.
@@ -88,8 +92,11 @@ class Planner
   void record_without_run();
   Insertion& insertion_of(LAMMPS_NS::FixInsert& fix);
   void look_at_meshes(bool moving);
+  void begin_branch(const std::string& value, bool jumps);
+  WaitingLoops::Places places_now() const;
   void stop_where_nothing_is_new();
   void stop_where_late();
+  Box::Point upward() const;
   Atom atom(int i) const;
   std::string where(const LAMMPS_NS::Fix& fix) const;
   Wall& wall(const std::string& where, const std::string& id);
@@ -101,6 +108,7 @@ class Planner
   Record record_;
   std::map<const LAMMPS_NS::Fix*, std::pair<std::string, std::string>> places_;  ///< id and where of each fix
   std::map<const LAMMPS_NS::FixWallGran*, Style> styles_;
+  std::map<std::string, MeshMotion> motions_;
   std::map<std::string, Insertion> insertions_;
   std::unordered_map<int, Atom> atoms_;        ///< by tag, when the last run ended
   std::map<int, std::size_t> source_of_type_;  ///< of atoms that no insertion brought
@@ -108,6 +116,7 @@ class Planner
   LAMMPS_NS::bigint natoms_ = 0;
   std::vector<double> fingerprint_;
   int runs_without_news_ = 0;
+  WaitingLoops loops_;
   double count_ = 0;    ///< particles when the run began
   double cleared_ = 0;  ///< particles that `clear` took away
   bool has_box_ = false;

@@ -36,7 +36,8 @@ json to_json(const Wall& w)
   return {{"where", w.where},           {"id", w.id},
           {"model", w.model},           {"type", w.type},
           {"box", to_json(w.box)},      {"speed", w.speed},
-          {"drag_speed", w.drag_speed}, {"deformable", w.deformable}};
+          {"drag_speed", w.drag_speed}, {"deformable", w.deformable},
+          {"push_speed", w.push_speed}, {"level_push_speed", w.level_push_speed}, {"lift", w.lift}};
 }
 
 json to_json(const Run& r)
@@ -111,7 +112,7 @@ std::vector<double> Record::fingerprint() const
     add_box(s.centres);
   }
   for (const Wall& w : walls) {
-    all.insert(all.end(), {w.speed, w.drag_speed});
+    all.insert(all.end(), {w.speed, w.drag_speed, w.push_speed, w.level_push_speed, w.lift});
     add_box(w.box);
   }
   return all;

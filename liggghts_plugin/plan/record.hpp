@@ -36,6 +36,9 @@ struct Wall
   Box box;  ///< with all that its motion sweeps
   double speed = 0, drag_speed = 0;
   bool deformable = false;
+  double push_speed = 0;  ///< largest part of `speed` along the line of a contact
+  double level_push_speed = 0;  ///< largest part of a face's push across gravity
+  double lift = 0;        ///< largest rise of a point of it against gravity
 };
 
 struct Run

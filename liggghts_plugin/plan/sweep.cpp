@@ -86,19 +86,15 @@ MeshView look_at(lmp::FixMeshSurface& fix)
 {
   MeshView view;
   lmp::TriMesh& mesh = *fix.triMesh();
-  for (int i = 0; i < mesh.sizeLocal(); ++i)
-    for (int j = 0; j < 3; ++j) {
-      Box::Point node;
-      mesh.node(i, j, node.data());
-      view.box.include(node);
+  NodeVectors* v = velocities_of(mesh);
+  for (int i = 0; i < mesh.sizeLocal(); ++i) {
+    MeshMotion::Triangle &corners = view.corners.emplace_back(), &velocities = view.velocities.emplace_back();
+    for (std::size_t j = 0; j < 3; ++j) {
+      mesh.node(i, static_cast<int>(j), corners[j].data());
+      view.box.include(corners[j]);
+      if (v) std::copy_n(v->begin()[i][j], 3, velocities[j].begin());
     }
-  if (NodeVectors* v = velocities_of(mesh))
-    for (int i = 0; i < v->size(); ++i)
-      for (int j = 0; j < 3; ++j) {
-        const double* node = v->begin()[i][j];
-        view.speed =
-            std::max(view.speed, std::sqrt(node[0] * node[0] + node[1] * node[1] + node[2] * node[2]));
-      }
+  }
   return view;
 }
 

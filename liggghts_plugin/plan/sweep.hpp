@@ -1,16 +1,17 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "liggghts_plugin/engine/liggghts.hpp"
-#include "liggghts_plugin/plan/record.hpp"
+#include "liggghts_plugin/plan/mesh_motion.hpp"
 
 namespace granulaw::plugin::plan {
 
 struct MeshView
 {
   Box box;
-  double speed = 0;  ///< largest of its nodes
+  std::vector<MeshMotion::Triangle> corners, velocities;
 };
 /// A mesh as it is now.
 MeshView look_at(LAMMPS_NS::FixMeshSurface& mesh);

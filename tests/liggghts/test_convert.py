@@ -74,6 +74,19 @@ class Convert(InFolder):
         return json.loads((self.folder / "state.json").read_text())
 
 
+class TestDefaults(Convert):
+    def test_a_speed_is_no_less_than_what_the_plan_knows(self):
+        """Two beads at 4 m/s each, beside a plate that a force moves."""
+        (self.folder / "plate.stl").write_text(plane_stl())
+        self.write("in.deck", DECK.replace(WALL.format(type=1), "fix plate all mesh/surface/stress/servo file plate.stl type 1 com 0 0 0.03 ctrlPV force axis 0 0 -1 target_val 1 "
+                                           "vel_max 0.1 kp 5\nfix walls all wall/gran model hertz tangential history mesh n_meshes 1 meshes plate\n") +
+                   "create_atoms 1 single 0 0 0.05 units box\ncreate_atoms 1 single 0 0 0.06 units box\nset group all density 2500 diameter 0.002\n"
+                   "set atom 1 vz 4\nset atom 2 vz -4\nfix move all nve/sphere\ntimestep 1e-6\nrun 100\n")
+        _, said = self.convert("--accept-defaults")
+        assert said["taken_from_deck"][0].endswith("--speed 8, the fastest approach that the deck shows")
+        assert "1:1 bead:bead | up to 8 m/s" in (self.out / "conversion.md").read_text()
+
+
 class TestFiles(Convert):
     def test_deck_law_and_page_are_written_and_the_original_stays(self):
         text = DECK + REST + RUN

@@ -113,7 +113,7 @@ class TestScenes(Planned):
         source, = self.scene(deck + insertion("particles_in_region 100") + "run 1000\n")["sources"]
         assert (source["type"], source["radius"], source["count"]) == (1, [0.002, 0.002], 100)
         assert source["density"] == approx(1000, abs=1e-9)
-        assert (source["speed"], source["centres"]["low"], source["centres"]["high"]) == (0.5, [-0.05, -0.05, 0.1], [0.05, 0.05, 0.2])
+        assert (source["speed"], source["centres"]["low"], source["centres"]["high"]) == (0.5, approx([-0.048, -0.048, 0.102]), approx([0.048, 0.048, 0.198]))  # all in
         # as LIGGGHTS counts: every 400 steps from the first on, in two runs as in one
         for runs, expected in (("run 1000\n", 3), ("run 399\nrun 601\n", 3), ("run 0\nrun 1\n", 1), ("run 1\nrun 399\n", 1), ("run 1\nrun 400\n", 2)):
             scene = self.scene(deck + insertion("nparticles 5000 particlerate 5000", 400, "rate/region") + runs)
@@ -159,7 +159,8 @@ class TestScenes(Planned):
         still, low, high = plate("")
         assert (still["speed"], still["drag_speed"], low, high) == (0, 0, [-0.05, -0.05, 0.1], [0.05, 0.05, 0.1])
         lifted, low, high = plate("fix mv all move/mesh mesh plate linear 0 0 0.5\n")  # 0.2 s
-        assert lifted["speed"] == approx(0.5, abs=1e-12)
+        assert (lifted["speed"], lifted["push_speed"]) == (approx(0.5, abs=1e-12), approx(0.5, abs=1e-12))
+        assert lifted["lift"] == approx(0.1, abs=1.1e-5)  # likewise, and rounding
         assert low[2] == approx(0.1, abs=1e-5)  # a step of 1e-5 s at 0.5 m/s
         assert high[2] == approx(0.2, abs=1e-5)
         turned, low, high = plate("fix mv all move/mesh mesh plate rotate origin 0 0 0.1 axis 0 0 1 period 0.1\n")
@@ -175,10 +176,11 @@ class TestScenes(Planned):
         conveyor = self.scene(BOX + ONE + meshes.replace("move 0 0 0.1", "move 0 0 0.1 surface_vel 0.3 0.4 0") + "run 100\n")["walls"][0]
         assert (conveyor["speed"], conveyor["drag_speed"]) == (0, 0.5)
         shear = self.scene(BOX + ONE + FLOOR.replace("zplane 0.0", "zplane 0.0 shear x -0.7") + "run 100\n")["walls"][0]
-        assert shear["drag_speed"] == 0.7
+        assert (shear["drag_speed"], shear["lift"]) == (0.7, 0)
         for direction, speed in (("y", 1.5 * 0.03), ("z", 1.5)):  # a turn, rad/s; a speed along the axis
             drum = self.scene(BOX + ONE + FLOOR.replace("zplane 0.0", f"zcylinder 0.03 0 0 shear {direction} 1.5") + "run 100\n")["walls"][0]
             assert drum["drag_speed"] == approx(speed, abs=1e-15)
+            assert drum["lift"] == (0 if direction == "y" else approx(0.5))  # about the vertical; up it
         pipe = self.scene(BOX + ONE + FLOOR.replace("zplane 0.0", "zcylinder 0.03 0.01 -0.02") + "run 100\n")["walls"][0]
         assert [round(x, 12) for x in pipe["box"]["low"] + pipe["box"]["high"]] == [-0.02, -0.05, 0.0, 0.04, 0.01, 0.5]
 
@@ -376,11 +378,38 @@ run 1
     def test_loops_that_wait(self):
         deck = BOX + FLOOR + ONE + 'compute ke all ke\nthermo_style custom step c_ke\nlabel settle\nrun 1\nvariable k equal c_ke\nif "${k} > -1" then "jump SELF settle"\nrun 77\n'
         scene = self.scene(deck)
-        assert len(scene["runs"]) == 1002  # the first is new, and the second: its branch is noted
-        assert any("1000 runs in turn bring nothing new" in note for note in scene["notes"]), scene["notes"]
+        assert len(scene["runs"]) == 1003  # the first is new, and the second: its branch is noted
+        assert scene["runs"][-1]["steps"] == 77  # the deck goes on behind the loop
+        assert len(scene["notes"]) == 1 and "the loop waits for c_ke, which only a simulation has" in scene["notes"][0], scene["notes"]
         counted = BOX + FLOOR + ONE + "variable n loop 1500\nlabel again\nvariable dt equal 1e-6*$n\ntimestep ${dt}\nrun 2\nnext n\njump SELF again\n"
         scene = self.scene(counted)  # each run is new
         assert (len(scene["runs"]), scene["notes"]) == (1500, [])
+
+    @mark.parametrize("wait", ('if "${force} < 2" then "jump SELF press"\n', 'if "${force} > 2" then "jump SELF done"\njump SELF press\nlabel done\n'))
+    @mark.parametrize("boundary", ("f f f", "f f m"))
+    def test_a_plate_that_waits_for_a_force(self, boundary, wait):
+        """It passes the particles once; what comes behind the loop is planned."""
+        (self.folder / "plate.stl").write_text(two_triangles(0.05, 0.31))
+        press = ("fix plate all mesh/surface/stress file plate.stl type 2\nfix top all wall/gran model hertz tangential history mesh n_meshes 1 meshes plate\n"
+                 "fix down all move/mesh mesh plate linear 0 0 -0.2\nlabel press\nrun 200\nvariable force equal abs(f_plate[3])\n")
+        text = (BOX + FLOOR + ONE + press + wait + "unfix down\nrun 77\n").replace("boundary f f f", "boundary " + boundary)
+        scene = self.scene(text)
+        place = 1 + text[:text.index("if ")].count("\n")
+        assert [note.split(": ")[0] for note in scene["notes"]] == [f"in.deck:{place}"]
+        assert "the loop waits for f_plate[3], which only a simulation has" in scene["notes"][0]
+        assert scene["left_loop"] == f"in.deck:{place}"
+        assert scene["runs"][-1]["steps"] == 77
+        plate = scene["walls"][-1]
+        assert plate["speed"] == approx(0.2) and plate["push_speed"] == approx(0.2) and plate["lift"] == 0
+        assert 0.299 < plate["box"]["low"][2] < 0.3  # the centre of the sphere, and no further
+        planned = json.loads(self.mpm("plan", "in.deck", "--json", "--speed", "1").stdout)
+        assert planned["fall_m"] == approx(0.298) and "'plate'" in planned["not_bounded"][0]
+
+    def test_a_long_way_takes_few_runs(self):
+        (self.folder / "plate.stl").write_text(two_triangles(0.05, 0.49))
+        scene = self.scene(BOX + FLOOR + ONE + "fix plate all mesh/surface/stress file plate.stl type 2\nfix top all wall/gran model hertz tangential history mesh n_meshes 1 meshes plate\n"
+                           "fix down all move/mesh mesh plate linear 0 0 -0.01\nlabel press\nrun 20\nvariable force equal abs(f_plate[3])\nif \"${force} < 2\" then \"jump SELF press\"\n")
+        assert len(scene["runs"]) < 300  # of 95,000
 
     def test_branches_on_a_runs_value_are_named(self):
         start = BOX + FLOOR + ONE + "compute ke all ke\nthermo_style custom step c_ke\nrun 10\nvariable k equal c_ke\nvariable twice equal 2*v_k\n"

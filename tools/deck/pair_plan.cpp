@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/scales.hpp"
-#include "deck/geometry.hpp"
+#include "deck/collision.hpp"
 #include "deck/hertz.hpp"
 #include "deck/plan_options.hpp"
 #include "law/contact_step.hpp"
@@ -13,43 +13,10 @@ namespace granulaw::deck {
 
 namespace {
 
-/// Radii, R*, m, and m*, kg, of two particles; of a wall the radius is infinite.
-struct Effective
+void set_speed(PairPlan& p, const Encounter& e, const std::optional<Visited::Range>& visited)
 {
-  double radius_a, radius_b, radius, mass;
-};
-
-/// Mass by the deck's own density: the materials file may have another one.
-double mass_of(const AtomType& t, double radius)
-{
-  return t.density * ball_volume(radius);
-}
-
-/// At the extremes of both sizes.
-std::vector<Effective> sizes(const Encounter& e)
-{
-  std::vector<Effective> result;
-  for (const double ra : {e.a->radius_min, e.a->radius_max}) {
-    const double ma = mass_of(*e.a, ra);
-    if (!e.b) {
-      result.push_back({ra, Box::infinity, ra, ma});
-      continue;
-    }
-    for (const double rb : {e.b->radius_min, e.b->radius_max})
-      result.push_back({ra, rb, effective_radius(ra, rb), effective_mass(ma, mass_of(*e.b, rb))});
-  }
-  return result;
-}
-
-void set_speed(PairPlan& p, const Encounter& e, const PlanOptions& options,
-               const std::optional<Visited::Range>& visited)
-{
-  p.speed = e.approach.speed;
-  p.speed_basis = e.approach.shielded ? "shielded fall" : "fall";
-  if (options.speed) {
-    p.speed = *options.speed;
-    p.speed_basis = "given";
-  }
+  for (const SizedEncounter& size : e.sizes)
+    if (p.speed_basis.empty() || size.approach.speed > p.speed) p.speed = size.approach.speed, p.speed_basis = size.approach.basis;
   if (visited) {
     p.visited = visited->met;
     p.speed = visited_margin * visited->speed;
@@ -58,7 +25,7 @@ void set_speed(PairPlan& p, const Encounter& e, const PlanOptions& options,
 }
 
 /// Onset and V_y of the sphere that stands for the pair, and the damage numbers.
-void include_yield(PairPlan& p, const Effective& size)
+void include_yield(PairPlan& p, const SizedEncounter& size)
 {
   const Meeting& m = p.meeting;
   if (!m.yields.yields()) return;
@@ -70,20 +37,26 @@ void include_yield(PairPlan& p, const Effective& size)
   p.axis_number = std::max(p.axis_number, density * p.speed * p.speed / yield);
 }
 
-/// Contact time and overlap of the fastest collision: by the law where there is one, else by Hertz.
-void include_collision(PairPlan& p, const Effective& size, const PlanOptions& options)
+void include_overlap(PairPlan& p, const SizedEncounter& size, double overlap, const std::string& basis)
 {
-  if (p.speed <= 0) return;
+  if (p.overlap_basis.empty() || overlap / size.radius > p.overlap) p.overlap_basis = basis;
+  p.overlap = std::max(p.overlap, overlap / size.radius);
+  p.depth = std::max(p.depth, overlap / p.meeting.mapping.length(size.radius));
+}
+
+/// Contact time and overlap of the fastest collision, and of the load: by the law where there is one, else by Hertz.
+void include_collision(PairPlan& p, const SizedEncounter& size, const PlanOptions& options)
+{
   const Meeting& m = p.meeting;
-  const double e_star = m.mapping.e_star_pair(), length = m.mapping.length(size.radius);
-  p.contact_time = std::min(p.contact_time, hertz_time(e_star, size.radius, size.mass, p.speed));
-  std::optional<Collision> collision;
-  if (options.collide && m.known_yield) collision = options.collide(m, size.radius, size.mass, p.speed);
-  const double depth =
-      collision ? collision->depth : hertz_overlap(e_star, size.radius, size.mass, p.speed) / length;
-  p.overlap_basis = collision ? collision->basis : "Hertz";
-  p.depth = std::max(p.depth, depth);
-  p.overlap = std::max(p.overlap, depth * length / size.radius);
+  if (p.speed > 0) {
+    const double speed = p.speed_basis == "visited" ? p.speed : size.approach.speed;
+    p.contact_time = std::min(p.contact_time, hertz_time(m.mapping.e_star_pair(), size.radius, size.mass, speed));
+    const Overlap impact = overlap_of(options, m, size.radius, size.mass, speed);
+    include_overlap(p, size, impact.value, impact.basis);
+  }
+  if (p.speed_basis == "visited" || !(size.load.energy() > 0)) return;
+  const Overlap pressed = overlap_of(options, m, size.radius, size.load.mass, size.load.speed);
+  if (pressed.value / size.radius > p.overlap) include_overlap(p, size, pressed.value, "pressed");
 }
 
 /// A run may press a contact deeper than any impact goes.
@@ -97,7 +70,7 @@ void include_visited_overlap(PairPlan& p, double overlap)
 }
 
 /// The step that the planned overlap allows, by the law where there is one, else by Hertz.
-void include_time_step(PairPlan& p, const Effective& size, const PlanOptions& options)
+void include_time_step(PairPlan& p, const SizedEncounter& size, const PlanOptions& options)
 {
   if (!(p.overlap > 0)) return;
   const Meeting& m = p.meeting;
@@ -118,15 +91,19 @@ PairPlan plan_pair(const Encounter& e, const PlanOptions& options, double stretc
   if (visited) range = visited->range(e.meeting.a, e.meeting.b, e.meeting.wall);
   PairPlan p;
   p.meeting = e.meeting;
-  set_speed(p, e, options, range);
+  set_speed(p, e, range);
   p.onset = p.yield_velocity = p.contact_time = p.time_step = Box::infinity;
-  for (const Effective& size : sizes(e)) {
+  for (const SizedEncounter& size : e.sizes) {
     include_yield(p, size);
     include_collision(p, size, options);
   }
-  p.needs_table = p.meeting.known_yield && p.speed > p.onset;
+  const LawMaterial& yields = p.meeting.yields;
+  const bool is_pressed_to_yield =
+      p.overlap_basis == "pressed" && yields.yields() &&
+      p.depth > onset_overlap(p.meeting.mapping.e_star, yields.yield_stress, yields.poisson_ratio);
+  p.needs_table = p.meeting.known_yield && (p.speed > p.onset || is_pressed_to_yield);
   if (range) include_visited_overlap(p, visited_margin * range->overlap / stretch);
-  for (const Effective& size : sizes(e)) include_time_step(p, size, options);
+  for (const SizedEncounter& size : e.sizes) include_time_step(p, size, options);
   return p;
 }
 

@@ -1,6 +1,7 @@
 #include "deck/plan.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <set>
 
 #include "law/law.hpp"
+#include "law/plan_notes.hpp"
 #include "law/range.hpp"
 
 namespace granulaw::deck {
@@ -35,16 +37,16 @@ bool has_single_particle(const Scene& scene)
 }
 
 /// Particles of each two types.
-void add_particle_pairs(std::vector<Encounter>& encounters, const Scene& scene, const AtomTypes& types,
-                        const SpeedBound& speeds)
+void add_particle_pairs(std::vector<Encounter>& encounters, const Scene& scene, const AtomTypes& types, const Strikes& strikes)
 {
   for (auto a = types.begin(); a != types.end(); ++a)
     for (auto b = a; b != types.end(); ++b) {
       if (a == b && has_single_particle(scene)) continue;
-      encounters.push_back({meeting_of(a->second, b->second),
-                            &a->second,
-                            &b->second,
-                            {speeds.between(a->first, b->first), false}});
+      Encounter& e = encounters.emplace_back(Encounter{meeting_of(a->second, b->second), {}});
+      for (const Body* i : strikes.bodies(a->first))
+        for (const Body* j : strikes.bodies(b->first))
+          e.sizes.push_back({i->radius, j->radius, effective_radius(i->radius, j->radius), effective_mass(i->mass, j->mass),
+                             strikes.between(*i, *j), strikes.load_between(*i, *j)});
     }
 }
 
@@ -56,16 +58,11 @@ struct WallKind
   auto operator<=>(const WallKind&) const = default;
 };
 
-/// The fastest approach of a particle of this type to each kind of wall.
-std::map<WallKind, SpeedBound::Approach> approaches(const SpeedBound& speeds, int type)
+std::map<WallKind, std::vector<const Wall*>> kinds_of_walls(const SpeedBound& speeds)
 {
-  std::map<WallKind, SpeedBound::Approach> fastest;
-  for (const Wall* w : speeds.walls()) {
-    const SpeedBound::Approach approach = speeds.to(*w, type);
-    const auto [found, is_new] = fastest.try_emplace({w->type, w->deformable}, approach);
-    if (!is_new && approach.speed > found->second.speed) found->second = approach;
-  }
-  return fastest;
+  std::map<WallKind, std::vector<const Wall*>> kinds;
+  for (const Wall* w : speeds.walls()) kinds[{w->type, w->deformable}].push_back(w);
+  return kinds;
 }
 
 /// The types of the walls whose material gives way, as far as they are known. Asks for their moduli.
@@ -81,14 +78,19 @@ AtomTypes deformable_walls(const Scene& scene, const SpeedBound& speeds, const P
 
 /// Particles of each type with each kind of wall.
 void add_wall_pairs(std::vector<Encounter>& encounters, const AtomTypes& types, const AtomTypes& walls,
-                    const SpeedBound& speeds)
+                    const SpeedBound& speeds, const Strikes& strikes)
 {
+  const auto add = [&](const Meeting& meeting, const std::vector<const Wall*>& of_kind) {
+    Encounter& e = encounters.emplace_back(Encounter{meeting, {}});
+    for (const Body* body : strikes.bodies(meeting.a))
+      e.sizes.push_back({body->radius, Box::infinity, body->radius, body->mass, strikes.to(of_kind, *body), strikes.load_at(of_kind, *body)});
+  };
   for (const auto& [type, t] : types)
-    for (const auto& [kind, approach] : approaches(speeds, type)) {
+    for (const auto& [kind, of_kind] : kinds_of_walls(speeds)) {
       if (!kind.deformable)
-        encounters.push_back({meeting_with_rigid_wall(t, kind.type), &t, nullptr, approach});
+        add(meeting_with_rigid_wall(t, kind.type), of_kind);
       else if (const auto wall = walls.find(kind.type); wall != walls.end())
-        encounters.push_back({meeting_with_wall(t, wall->second), &t, nullptr, approach});
+        add(meeting_with_wall(t, wall->second), of_kind);
     }
 }
 
@@ -123,8 +125,33 @@ void set_axes(Plan& plan)
         std::max({damage_number, p.damage_number, p.axis_number});  // the pair rule's axis is the latter
   }
   plan.axis_matters = damage_number > negligible_damage_number;
-  plan.depth = std::min(deepest_law, rounded_up(margin * depth));
+  if (depth > 0) plan.depth = std::clamp(rounded_up(margin * depth), shallowest_table, deepest_law);
   plan.damage_number = std::min(fastest_law, rounded_up(margin * damage_number));
+}
+
+/// A wall in motion does any work, and gravity along a periodic direction as well.
+void note_unbounded(Plan& plan, const Scene& scene, const AtomTypes& types, const SpeedBound& speeds, const Strikes& strikes)
+{
+  for (const auto& [type, t] : types) {
+    double slip = 0;
+    for (const Body* body : strikes.bodies(type)) slip = std::max(slip, strikes.slip_speed(*body));
+    const bool is_fastest = std::any_of(plan.pairs.begin(), plan.pairs.end(), [&](const PairPlan& p) {
+      return p.meeting.wall && p.meeting.a == type && p.speed_basis == "slip";
+    });
+    if (is_fastest)
+      plan.not_bounded.push_back(fmt::format(
+          "speeds between particles where one of type {} slips out from under a heavier one; it leaves with up to {:.3g} m/s", type, slip));
+  }
+  std::vector<std::string> moving;
+  for (const Wall* w : speeds.walls())
+    if (w->push_speed > 0) moving.push_back(fmt::format("'{}' ({})", w->id, w->where));
+  if (!moving.empty())
+    plan.not_bounded.push_back(fmt::format("overlaps where {} {} particles against others or a wall", fmt::join(moving, ", "),
+                                           moving.size() == 1 ? "presses" : "press"));
+  for (std::size_t k = 0; k < 3; ++k)
+    if (scene.periodic[k] && std::abs(speeds.upward()[k]) > 1e-3)
+      plan.not_bounded.push_back(fmt::format("speeds along {}, a periodic direction with gravity: those of one length of the box stand above",
+                                             "xyz"[k]));
 }
 
 void set_time_step(Plan& plan, double stretch)
@@ -183,12 +210,14 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
   if (!types.empty()) walls = deformable_walls(scene, speeds, options, plan.questions);
   ask_for_yield_stresses(types, walls, plan.questions);
 
+  const Strikes strikes(speeds, scene, types, walls, options);
   std::vector<Encounter> encounters;
-  add_particle_pairs(encounters, scene, types, speeds);
-  add_wall_pairs(encounters, types, walls, speeds);
+  add_particle_pairs(encounters, scene, types, strikes);
+  add_wall_pairs(encounters, types, walls, speeds, strikes);
   for (const Encounter& e : encounters) plan.pairs.push_back(plan_pair(e, options, scene.stretch, visited));
   plan.law_pairs = pairs_of_law(types, walls);
   set_axes(plan);
+  if (!visited) note_unbounded(plan, scene, types, speeds, strikes);
   set_time_step(plan, scene.stretch);
   set_cost(plan, scene, options);
   return plan;
@@ -200,6 +229,13 @@ const PairPlan* Plan::stiffest() const
       std::min_element(pairs.begin(), pairs.end(),
                        [](const PairPlan& a, const PairPlan& b) { return a.time_step < b.time_step; });
   return found != pairs.end() && std::isfinite(found->time_step) ? &*found : nullptr;
+}
+
+void note_plan(Law& law, const Plan& plan, const std::string& deck)
+{
+  law.provenance[deck_note] = deck;
+  for (const PairPlan& p : plan.pairs)
+    if (p.visited) note_planned(law, p.meeting.name_a, p.meeting.name_b, p.overlap, p.speed);
 }
 
 std::vector<std::string> beyond_laws(const Plan& plan)

@@ -26,6 +26,7 @@ struct Plan
   std::vector<std::string> law_pairs;    ///< "a:b" that the plug-in requires of the law, in order
   double depth = 0, damage_number = 0;  ///< that the table needs, margins included; 0: no table
   bool axis_matters = false;            ///< the velocity axis
+  std::vector<std::string> not_bounded;  ///< what of the scene no energy bounds
   bool complete() const { return questions.empty(); }
 };
 
@@ -35,6 +36,9 @@ inline constexpr double negligible_damage_number = 0.002;
 
 /// Plans a scene: which bodies meet, how fast (deck/speeds.hpp), and what that needs of a law.
 Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* visited = nullptr);
+
+/// Notes in a law that was made for the plan's deck what it allows of each pair (law/plan_notes.hpp).
+void note_plan(Law& law, const Plan& plan, const std::string& deck);
 
 /// One sentence for each pair that the scene takes deeper or faster than any law goes; empty: none.
 std::vector<std::string> beyond_laws(const Plan& plan);

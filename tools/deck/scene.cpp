@@ -41,7 +41,7 @@ void to_si(Scene& scene)
     for (Vec3& p : s.together) p = length * p;
   }
   for (Wall& wall : scene.walls) {
-    for (double* value : {&wall.speed, &wall.drag_speed}) *value *= length;
+    for (double* value : {&wall.speed, &wall.drag_speed, &wall.push_speed, &wall.level_push_speed, &wall.lift}) *value *= length;
     scale(wall.box);
   }
 }
@@ -99,8 +99,8 @@ Source source_of(const json& j, const Places& places)
 
 Wall wall_of(const json& j, const Places& places)
 {
-  return {places.path(j["where"]), j["id"],         j["type"], box_of(j["box"]), j["speed"],
-          j["drag_speed"],         j["deformable"], j["model"]};
+  return {places.path(j["where"]), j["id"],         j["type"],  box_of(j["box"]), j["speed"],
+          j["drag_speed"],         j["deformable"], j["model"], j["push_speed"],  j["level_push_speed"], j["lift"]};
 }
 
 TypeMaterial material_of(const json& j)

@@ -45,6 +45,9 @@ struct Wall
   double drag_speed = 0;    ///< m/s, of its surface along itself (conveyor): drags, does not push
   bool deformable = false;  ///< the word `wall deformable` of the plug-in: its material gives way
   std::string model{};      ///< its normal model
+  double push_speed = 0;    ///< m/s, largest part of `speed` along the line of a contact
+  double level_push_speed = 0;  ///< m/s, largest part of a face's push across gravity
+  double lift = 0;          ///< m, largest rise of a point of it against gravity
 };
 
 /// One `run`.

@@ -12,11 +12,9 @@ namespace granulaw::deck {
 
 struct PlanOptions;
 
-/// Bound on the speed at which two bodies of a deck can meet. Each particle starts at its source and falls to
-/// the lowest point
-/// of the walls, losing nothing; a wall that moves at U gives it up to 2U more (an elastic rebound), one that
-/// drags its surface U; two particles meet at most with the sum of their speeds. The floor under a cloud of
-/// equal spheres at rest is shielded by the lowest of them: `landing_speed` (deck/shielding.hpp).
+/// Speeds at which a deck's particles come down, before they meet anything. Each starts at its source, or where a
+/// wall that rises lifts it, and falls to the lowest point of the walls, losing nothing. Walls that drag it give it
+/// their own speed at most. What collisions hand on is strikes.hpp's.
 class SpeedBound
 {
  public:
@@ -26,26 +24,32 @@ class SpeedBound
   /// Asks for heights and speeds that the deck does not give.
   void ask_for_missing(std::vector<Question>& questions) const;
 
-  /// m/s, relative, of two particles of these types.
-  double between(int a, int b) const;
-  struct Approach
-  {
-    double speed = 0;  ///< m/s
-    bool shielded = false;
-  };
-  /// Approach of a particle of this type to a wall.
-  Approach to(const Wall& wall, int type) const;
+  /// m/s, of a particle of this type and radius (m) that touches a wall at `height` (m along upward()).
+  double free_speed(int type, double radius, double height) const;
+  /// m/s, where it starts.
+  double start_speed(int type) const;
+  /// m/s, the largest of all walls across their surface.
+  double push() const { return push_; }
+  /// m/s, across gravity, of the walls of a box in motion around the particles: they hit one in turn.
+  double shake() const { return shake_; }
+  /// m/s, on the floor that a cloud of equal spheres shields (deck/shielding.hpp); empty: there is none.
+  const std::optional<double>& landing() const { return landing_; }
 
   /// Those that particles can reach.
   const std::vector<const Wall*>& walls() const { return walls_; }
+  /// Against gravity; 0 without gravity.
+  const Vec3& upward() const { return upward_; }
+  /// m along upward(), the lowest point of these walls; 0 without gravity.
+  double floor() const { return g_ > 0 ? floor_ : 0.0; }
   /// m, the largest height that a particle may fall.
   double fall() const;
 
  private:
-  /// Greatest height of a type's centres without a wall's help, and their speed there.
+  /// Greatest height of a type's centres, and their speed there.
   struct Flight
   {
     double top = 0, speed = 0;
+    double radius_min = 0;
     bool known = true;
   };
 
@@ -54,17 +58,17 @@ class SpeedBound
   Vec3 upward_{0, 0, 0};               // 0 without gravity
   std::optional<double> drop_height_;  // m, given
   std::map<int, Flight> flights_;      // by type
-  double push_ = 0, drag_ = 0;         // m/s, largest of all walls: by moving, by dragging
+  double push_ = 0, drag_ = 0, shake_ = 0;  // m/s, largest of all walls
   std::vector<const Wall*> walls_;
   double floor_ = Box::infinity;   // m along upward_, the lowest point of these walls
   std::optional<double> landing_;  // m/s, on the floor that a cloud shields
 
   void follow_sources(const std::map<int, AtomType>& types);
+  void lift(Flight& flight) const;
+  bool encloses(const Wall& wall) const;
   void find_walls(double largest_radius);
-  double highest_lift() const;
   double highest() const;
-  double speed_at(int type, double height) const;
-  double falling_speed(const Flight& flight, double height) const;
+  double falling_speed(const Flight& flight, double radius, double height) const;
 };
 
 }  // namespace granulaw::deck

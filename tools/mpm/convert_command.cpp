@@ -50,7 +50,7 @@ PlannedDeck plan_with_answers(const deck::Scene& scene, ConvertRequest& r, std::
     if (open.empty()) return planned;
     bool answered = r.accept_defaults && k < rounds;
     for (const deck::Question& q : open) {
-      const deck::DefaultAnswer by_deck = deck::default_answer(scene, q.option);
+      const deck::DefaultAnswer by_deck = deck::default_answer(scene, planned.plan, q.option);
       double& answer = q.option.starts_with("--speed") ? r.options.speed : r.options.drop_height;
       if (!(by_deck.value > 0) || answer > 0) answered = false;
       if (!answered) break;
@@ -58,7 +58,7 @@ PlannedDeck plan_with_answers(const deck::Scene& scene, ConvertRequest& r, std::
       accepted.push_back(fmt::format("{}: {} {:.3g}, {}", q.what, q.option.substr(0, q.option.find(' ')), by_deck.value,
                                      by_deck.reason));
     }
-    if (!answered) throw deck::Unanswered(deck::question_sentence(scene, open));
+    if (!answered) throw deck::Unanswered(deck::question_sentence(scene, planned.plan, open));
   }
 }
 
@@ -78,13 +78,14 @@ void write_law_of(deck::Converted& c, const MaterialsFile& file)
   request.depth = deepest_law, request.damage_number = fastest_law;  // of the atlas: as far as laws go, at no cost
   LawFilePlan plan = plan_law_file(request);
   if (plan.needs_runs()) {
-    request.depth = std::max(0.05, c.planned.plan.depth);
+    request.depth = std::max(shallowest_table, c.planned.plan.depth);
     request.damage_number = c.planned.plan.damage_number;
     plan = plan_law_file(request);
   }
   const std::unique_ptr<Farm> farm = plan.needs_runs() ? FarmOptions{}.farm() : nullptr;
   MadeLawFile made = make_law_file(plan, farm.get());
   made.law.provenance["command"] = command_line;
+  deck::note_plan(made.law, c.planned.plan, c.deck.filename().string());
   write_law(made.law, (c.folder / c.conversion.law).string());
 }
 

@@ -143,6 +143,7 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command)
   root["cost"] = cost_json(d);
   root["law_pairs"] = plan.law_pairs;
   root["beyond_laws"] = deck::beyond_laws(plan);
+  root["not_bounded"] = plan.not_bounded;
   root["table_command"] = command.empty() ? ordered_json(nullptr) : ordered_json(printable(command));
   root["asks_for"] = questions;
   root["not_followed"] = d.scene.notes;
@@ -263,6 +264,7 @@ void print_needs(const PlannedDeck& d)
 void print_next(const PlannedDeck& d, const std::string& command)
 {
   for (const std::string& sentence : deck::beyond_laws(d.plan)) fmt::print("beyond all laws: {}\n", printable(sentence));
+  for (const std::string& what : d.plan.not_bounded) fmt::print("not bounded: {}\n", printable(what));
   for (const std::string& note : d.scene.notes) fmt::print("not followed: {}\n", note);
   if (!d.plan.complete()) fmt::print("not in the deck:\n{}", questions_text(d.plan));
   if (!command.empty())

@@ -42,17 +42,13 @@ struct TableRequest
   DeckOptions scene;  ///< of --deck
 };
 
-/// Takes from the deck what was not given itself: pairs, depth, damage number and radius ratio. Returns the
-/// pairs of the deck that yield.
-std::vector<deck::PairPlan> take_from_deck(TableRequest& r, const Options& command)
+/// Takes from the deck what was not given itself: pairs, depth, damage number and radius ratio. Returns its plan.
+deck::Plan take_from_deck(TableRequest& r, const Options& command)
 {
-  std::vector<deck::PairPlan> yielding;
   r.scene.materials_file = r.materials;
-  const PlannedDeck d = plan_deck(r.deck, r.scene);
+  PlannedDeck d = plan_deck(r.deck, r.scene);
   require_answers(d.plan, r.deck);
-  for (const deck::PairPlan& p : d.plan.pairs)
-    if (p.needs_table && p.visited) yielding.push_back(p);
-  if (yielding.empty()) return yielding;
+  if (!(d.plan.depth > 0)) return d.plan;
   if (command.count("--pair") == 0) r.pairs = d.plan.law_pairs;
   if (rank() == 0)
     for (const std::string& sentence : deck::beyond_laws(d.plan)) fmt::print(stderr, "mpm: {}\n", printable(sentence));
@@ -62,7 +58,7 @@ std::vector<deck::PairPlan> take_from_deck(TableRequest& r, const Options& comma
   if (command.count("--radius-ratio") == 0) r.file.radius_ratio = sizes.radius_ratio;
   if (command.count("--thick-walls") == 0) r.file.thick_walls = sizes.thick_walls;
   if (sizes.thick_walls) r.file.rule_radius_ratio = largest_radius_ratio;
-  return yielding;
+  return d.plan;
 }
 
 /// The request as the library takes it; `atlas` may be null.
@@ -205,9 +201,10 @@ void report(const TableRequest& r, const LawFilePlan& plan, const MadeLawFile& f
 }
 
 /// The pairs of the deck that are faster than the error bound of their law.
-void warn_of_fast_pairs(const Law& law, const std::vector<deck::PairPlan>& pairs)
+void warn_of_fast_pairs(const Law& law, const deck::Plan& plan)
 {
-  for (const deck::PairPlan& p : pairs) {
+  for (const deck::PairPlan& p : plan.pairs) {
+    if (!p.needs_table || !p.visited) continue;
     const auto &a = p.meeting.name_a, &b = p.meeting.name_b;
     const LawPair* pair = law.find_pair(a, b);
     if (!pair) continue;
@@ -223,7 +220,7 @@ void warn_of_fast_pairs(const Law& law, const std::vector<deck::PairPlan>& pairs
   }
 }
 
-void make_table(const TableRequest& r, const std::vector<deck::PairPlan>& of_deck = {})
+void make_table(const TableRequest& r, const deck::Plan* of_deck = nullptr)
 {
   check_output("-o", r.output, ".h5");
   r.farm.check();
@@ -231,24 +228,26 @@ void make_table(const TableRequest& r, const std::vector<deck::PairPlan>& of_dec
   const LawFilePlan plan = plan_law_file(law_file_request(r, atlas ? &*atlas : nullptr));
   if (rank() == 0) print_expected(plan);
   const std::unique_ptr<Farm> farm = plan.needs_runs() ? r.farm.farm() : nullptr;
-  const MadeLawFile file = make(plan, farm.get());
+  MadeLawFile file = make(plan, farm.get());
   if (rank() != 0) return;
+  if (of_deck) deck::note_plan(file.law, *of_deck, r.deck);
   write_law(file.law, r.output);
   report(r, plan, file, farm.get());
-  warn_of_fast_pairs(file.law, of_deck);
+  if (of_deck) warn_of_fast_pairs(file.law, *of_deck);
 }
 
 /// Table for --deck: only the pairs of its simulation.
 void make_table_for_deck(TableRequest& r, const Options& command)
 {
-  const std::vector<deck::PairPlan> yielding = take_from_deck(r, command);
-  if (rank() == 0 && yielding.empty())
-    fmt::print("{}: no pair of the deck yields: Hertz suffices, no law is written\n", printable(r.deck));
-  if (yielding.empty()) return;
+  const deck::Plan plan = take_from_deck(r, command);
+  if (!(plan.depth > 0)) {
+    if (rank() == 0) fmt::print("{}: no pair of the deck yields: Hertz suffices, no law is written\n", printable(r.deck));
+    return;
+  }
   if (rank() == 0)
     fmt::print("{}: needs {} to delta/R = {:.3g} and I = {:.3g}\n", printable(r.deck),
                fmt::join(r.pairs, ", "), r.file.depth, r.file.damage_number);
-  make_table(r, yielding);
+  make_table(r, &plan);
 }
 
 void add_range_options(Options& command, LawFileRequest& file)

@@ -17,6 +17,7 @@
 #include "characterise/body/law_material.hpp"
 #include "characterise/shape/shape_certificate.hpp"
 #include "characterise/pair/two_body_law.hpp"
+#include "law/plan_notes.hpp"
 
 namespace granulaw {
 
@@ -249,6 +250,7 @@ class Maker
     provenance["version"] = version();
     provenance["git_hash"] = git_hash();
     provenance["created"] = now_utc();
+    provenance[depth_note] = fmt::format("{:g}", plan_.request.depth);
     provenance["reduction_radius_ratio"] = fmt::format("{:g}", plan_.request.radius_ratio);
     if (plan_.needs_runs()) note_count(farm_.count(), provenance);
   }

@@ -85,15 +85,20 @@ std::vector<std::string> names_of_types(const Scene& scene, const std::vector<st
   return names;
 }
 
-DefaultAnswer default_answer(const Scene& scene, const std::string& option)
+DefaultAnswer default_answer(const Scene& scene, const Plan& plan, const std::string& option)
 {
   const double height = box_height(scene), g = norm(scene.gravity);
-  if (option.starts_with("--drop-height")) return {height, "the height of the deck's box"};
+  if (option.starts_with("--drop-height")) {
+    if (plan.fall > height) return {plan.fall, "the largest fall that the deck shows"};
+    return {height, "the height of the deck's box"};
+  }
   if (option.starts_with("--speed")) {
-    double walls = 0, start = 0;
+    double walls = 0, start = 0, planned = 0;
     for (const Wall& w : scene.walls) walls = std::max({walls, w.speed, w.drag_speed});
     for (const Source& s : scene.sources) start = std::max(start, s.speed);
+    for (const PairPlan& p : plan.pairs) planned = std::max(planned, p.speed);
     const double speed = start + 2 * walls + std::sqrt(2 * g * height);
+    if (planned >= speed && planned > 0) return {planned, "the fastest approach that the deck shows"};
     return {speed > 0 ? speed : 1.0, g > 0 ? "a fall through the deck's box, with its fastest wall" : "its fastest wall or particle"};
   }
   return {};
@@ -107,12 +112,12 @@ std::vector<Question> open_questions(const Plan& plan)
   return open;
 }
 
-std::string question_sentence(const Scene& scene, const std::vector<Question>& questions)
+std::string question_sentence(const Scene& scene, const Plan& plan, const std::vector<Question>& questions)
 {
   std::string text;
   for (const Question& q : questions) {
     const std::string name = q.option.substr(0, q.option.find(' '));
-    const DefaultAnswer by_deck = default_answer(scene, q.option);
+    const DefaultAnswer by_deck = default_answer(scene, plan, q.option);
     text += fmt::format("{}not in the deck: {}: give it by {}{}", text.empty() ? "" : "; ", q.what, q.option,
                         by_deck.value > 0 ? fmt::format(" ({} {:.3g}: {})", name, by_deck.value, by_deck.reason) : "");
   }

@@ -19,17 +19,17 @@ std::set<int> types_of_particles(const Scene& scene);
 std::vector<std::string> names_of_types(const Scene& scene, const std::vector<std::string>& given, const std::string& source,
                                         const std::vector<std::string>& known);
 
-/// A number from the deck, and where it comes from; 0: there is none.
+/// A number from the deck, no less than what its plan knows already, and where it comes from; 0: there is none.
 struct DefaultAnswer
 {
   double value = 0;
   std::string reason;
 };
-DefaultAnswer default_answer(const Scene& scene, const std::string& option);
+DefaultAnswer default_answer(const Scene& scene, const Plan& plan, const std::string& option);
 
 /// Questions whose answer changes the conversion.
 std::vector<Question> open_questions(const Plan& plan);
-std::string question_sentence(const Scene& scene, const std::vector<Question>& questions);
+std::string question_sentence(const Scene& scene, const Plan& plan, const std::vector<Question>& questions);
 
 /// The deck's time step, and what binds the stretch.
 struct StepChoice
