@@ -135,8 +135,8 @@ void note_unbounded(Plan& plan, const Scene& scene, const AtomTypes& types, cons
   for (const auto& [type, t] : types) {
     double slip = 0;
     for (const Body* body : strikes.bodies(type)) slip = std::max(slip, strikes.slip_speed(*body));
-    const bool is_fastest = std::any_of(plan.pairs.begin(), plan.pairs.end(), [&](const PairPlan& p) {
-      return p.meeting.wall && p.meeting.a == type && p.speed_basis == "slip";
+    const bool is_fastest = std::any_of(plan.pairs.begin(), plan.pairs.end(), [touching = type](const PairPlan& p) {
+      return p.meeting.wall && p.meeting.a == touching && p.speed_basis == "slip";
     });
     if (is_fastest)
       plan.not_bounded.push_back(fmt::format(
