@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <ranges>
 
 #include "law/damage_number.hpp"
 
@@ -62,13 +61,15 @@ std::vector<AxisCost> larger_costs(const std::vector<AxisCost>& a, const std::ve
 {
   std::map<double, AxisCost> larger;
   for (const std::vector<AxisCost>* costs : {&a, &b})
-    for (const double v : *costs | std::views::transform(&AxisCost::speed)) {
+    for (const AxisCost& cost : *costs) {
+      const double v = cost.speed;
       const AxisCost of_a = cost_at(a, v), of_b = cost_at(b, v);
       larger[v] = {v, std::max(std::abs(of_a.force), std::abs(of_b.force)),
                    std::max(std::abs(of_a.restitution), std::abs(of_b.restitution))};
     }
-  const auto values = larger | std::views::values;
-  return {values.begin(), values.end()};
+  std::vector<AxisCost> costs;
+  for (const auto& entry : larger) costs.push_back(entry.second);
+  return costs;
 }
 
 }  // namespace
