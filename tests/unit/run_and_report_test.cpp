@@ -1,5 +1,6 @@
 #include "run_and_report.hpp"
 
+#include "refusal.hpp"
 #include "scratch_folder.hpp"
 #include "some_materials.hpp"
 #include "some_runs.hpp"
@@ -43,6 +44,44 @@ TEST_F(RunAndReport, RefinesToTheToleranceAskedFor)
     return some_result(1);
   });
   EXPECT_GT(runs, 1);
+}
+
+/// Runs whose e errs by the error rule of the cells: 0.5 (12/cells)^1.65, `hours` at 14 cells.
+granulaw::Run converging(double hours)
+{
+  return [hours](const RunOptions& options) {
+    const int cells = options.resolution ? options.resolution : 14;
+    RunResult run = some_result(1);
+    run.summary.resolution = cells, run.summary.force_max = 1;
+    run.summary.restitution = 0.5 + 0.5 * std::pow(12.0 / cells, 1.65);
+    run.summary.cpu_s = 3600 * hours * std::pow(cells / 14.0, 3);
+    return run;
+  };
+}
+
+TEST_F(RunAndReport, TheCostOfAToleranceIsStatedBeforeItIsSpent)
+{
+  request_.tolerance = 0.1;
+  testing::internal::CaptureStderr();
+  reported(converging(0.1));
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("0.1 takes about"), std::string::npos) << said;
+  EXPECT_NE(said.find("of CPU"), std::string::npos) << said;
+}
+
+TEST_F(RunAndReport, AToleranceOutOfReachIsRefusedAfterTheFirstResolution)
+{
+  request_.tolerance = 1e-4;
+  int finest = 0;
+  const granulaw::Run run = [&](const RunOptions& options) {
+    finest = std::max(finest, options.resolution);
+    return converging(0.1)(options);
+  };
+  const std::string sentence = sentence_of(
+      [&] { run_and_report(request_, {Particle::sphere(2e-3, soft_powder()), {}}, {{"command", "test"}}, false, run); });
+  for (const char* part : {"--tolerance", "out of reach", "--resolution", "mpm law"})
+    EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+  EXPECT_EQ(finest, 14);
 }
 
 TEST_F(RunAndReport, TheCheckpointIsGoneWhenTheRunIsReported)

@@ -62,11 +62,21 @@ TEST(Terminal, WithoutATerminalProgressIsLines)
     ProgressBar often(true, ProgressBar::Clock::duration::zero());
     often.update(0.25, "lead: press to 0.02 R");
     often.update(0.5, "");
+    often.update(0.2, "the next run");
     ProgressBar seldom(true, ProgressBar::Clock::duration::max());
     seldom.update(0.5, "half");
   }
-  const std::regex lines("mpm: 25 % after \\d+ s: lead: press to 0.02 R\nmpm: 50 % after \\d+ s\n");
+  const std::regex lines(
+      "mpm: 25 % after 0 s, 0 s left: lead: press to 0.02 R\nmpm: 50 % after 0 s, 0 s left\nmpm: 20 % after 0 s, 0 s "
+      "left: the next run\n");
   EXPECT_TRUE(std::regex_match(testing::internal::GetCapturedStderr(), lines));
+}
+
+TEST(Terminal, DurationsHaveTheUnitThatOneSays)
+{
+  EXPECT_EQ(duration_text(40), "40 s");
+  EXPECT_EQ(duration_text(12 * 60), "12 minutes");
+  EXPECT_EQ(duration_text(3.5 * 3600), "3.5 hours");
 }
 
 }  // namespace granulaw::terminal_test

@@ -17,6 +17,7 @@
 #include "material_file/materials_file.hpp"
 #include "option_checks.hpp"
 #include "solver/runs.hpp"
+#include "terminal.hpp"
 
 namespace granulaw {
 
@@ -81,6 +82,8 @@ Row by_solver(const ObliqueRequest& r, const Particle& particle, const ObliqueTh
   RunOptions options;
   options.grid = GridKind::spatial, options.resolution = r.resolution, options.shifted_grids = 1;
   options.threads = r.jobs;
+  ProgressBar bar;
+  options.progress = [&](double done) { bar.update(done, ""); };
   const RunResult run = granulaw::impact(particle, approach, {}, options);
   const Rebound& rebound = run.rebound.value();
   return {"solver", rebound.normal, rebound.tangential, rebound.spin[1], run.summary.cpu_s};

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "base/error.hpp"
 #include "run_files/field_file.hpp"
 #include "run_report.hpp"
 #include "terminal.hpp"
@@ -21,6 +22,22 @@ void print_not_reached(double tolerance, const ToleranceResult& found)
              found.resolution_error, found.step_error, found.ramp_error);
 }
 
+/// The cost of a tolerance before it is spent. Throws Error where the range of cells ends before.
+void state_cost(double tolerance, const ToleranceForecast& f, const ToleranceRange& range)
+{
+  if (f.wanted_cells > range.last)
+    fail("--tolerance",
+         fmt::format("is out of reach: at {} cells the error estimate is {:.2g}, and {:g} takes about {} cells", f.cells,
+                     f.estimate, tolerance, f.wanted_cells),
+         fmt::format("{:g}", tolerance),
+         fmt::format("what {} cells reach; --resolution makes one run, mpm law needs none and states its error bound",
+                     range.last));
+  constexpr double worth_a_line = 60;  // s
+  if (f.cpu_s > worth_a_line)
+    fmt::print(stderr, "mpm: at {} cells the error estimate is {:.2g}; {:g} takes about {} cells and {} of CPU\n", f.cells,
+               f.estimate, tolerance, f.wanted_cells, duration_text(f.cpu_s));
+}
+
 /// Runs at the resolution asked for, or to the tolerance.
 RunResult run_to_request(const RunRequest& r, const FieldObserver& fields, bool has_ramp,
                          bool three_dimensions, const Run& run)
@@ -30,8 +47,11 @@ RunResult run_to_request(const RunRequest& r, const FieldObserver& fields, bool 
   options.fields = fields;
   options.progress = [&](double done) { bar.update(done, ""); };
   if (!r.tolerance) return run(options);
-  const ToleranceResult found = run_to_tolerance(*r.tolerance, has_ramp, options, run,
-                                                 three_dimensions ? spatial_range : flat_range);
+  const ToleranceRange& range = three_dimensions ? spatial_range : flat_range;
+  const ToleranceResult found = run_to_tolerance(*r.tolerance, has_ramp, options, run, range, [&](const ToleranceForecast& f) {
+    bar.clear();
+    state_cost(*r.tolerance, f, range);
+  });
   if (!found.reached) print_not_reached(*r.tolerance, found);
   return found.result;
 }

@@ -111,6 +111,8 @@ void certify(ShapeRequest& r)
   const BodyLaw law = sphere_law(particle, r);
   const std::unique_ptr<Farm> farm = r.farm.farm();
   ShapeCertificate certificate;
+  fmt::print(stderr, "mpm: {} impacts by the solver in three dimensions\n",
+             certificate_runs(particle, r.question));
   {
     ProgressBar bar;
     certificate = certify_shape(particle, law, r.question, *farm,

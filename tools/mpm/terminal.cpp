@@ -38,6 +38,13 @@ void stop_if_interrupted()
   if (interrupted) throw Interrupted{};
 }
 
+std::string duration_text(double seconds)
+{
+  if (seconds < 99.5) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 99.5 * 60) return fmt::format("{:.0f} minutes", seconds / 60);
+  return fmt::format("{:.2g} hours", seconds / 3600);
+}
+
 ProgressBar::ProgressBar(bool visible, Clock::duration every)
     : visible_(visible),
       is_terminal_(isatty(STDERR_FILENO) != 0),
@@ -56,15 +63,20 @@ void ProgressBar::update(double done, const std::string& what)
 {
   stop_if_interrupted();
   const auto now = Clock::now();
-  if (!visible_ || now - last_ < every_) return;
-  last_ = now;
+  if (done < done_) start_ = now;
+  done_ = done;
   const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double left = done > 0 ? seconds * (1 - done) / done : 0;
+  const bool costs_much = is_first_ && !is_terminal_ && seconds > 5 && left > 60;
+  if (!visible_ || (now - last_ < every_ && !costs_much)) return;
+  last_ = now, is_first_ = false;
+  const std::string remains = duration_text(left) + " left";
   if (!is_terminal_)
-    return fmt::print(stderr, "mpm: {:.0f} % after {:.0f} s{}{}\n", 100 * done, seconds, what.empty() ? "" : ": ",
-                      what);
-  const auto width = static_cast<int>(30 * std::clamp(done, 0.0, 1.0));
-  fmt::print(stderr, "\r[{:30}] {:3.0f} % {:4.0f} s  {:30.30}",
-             std::string(static_cast<std::size_t>(width), '='), 100 * done, seconds, what);
+    return fmt::print(stderr, "mpm: {:.0f} % after {:.0f} s, {}{}{}\n", 100 * done, seconds, remains,
+                      what.empty() ? "" : ": ", what);
+  const auto width = static_cast<int>(20 * std::clamp(done, 0.0, 1.0));
+  fmt::print(stderr, "\r[{:20}] {:3.0f} % {:4.0f} s, {:15} {:24.24}",
+             std::string(static_cast<std::size_t>(width), '='), 100 * done, seconds, remains, what);
   std::fflush(stderr);
 }
 

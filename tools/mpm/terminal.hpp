@@ -16,8 +16,12 @@ bool is_interrupted();
 /// Throws Interrupted once the flag is set.
 void stop_if_interrupted();
 
-/// Progress on stderr, only when it is asked to be visible: a bar on a terminal, elsewhere (a batch job's log)
-/// a line every half minute. Every update also looks for Ctrl-C.
+/// "40 s", "12 minutes", "3.5 hours".
+std::string duration_text(double seconds);
+
+/// Progress on stderr with the time left, only when it is asked to be visible: a bar on a terminal, elsewhere (a batch
+/// job's log) a line every half minute, and the first after 5 s where over a minute is left. A lower fraction begins the
+/// next run. Every update also looks for Ctrl-C.
 class ProgressBar
 {
  public:
@@ -31,6 +35,8 @@ class ProgressBar
  private:
   bool visible_, is_terminal_;
   Clock::duration every_;
+  bool is_first_ = true;
+  double done_ = 0;
   Clock::time_point start_, last_;
 };
 

@@ -86,6 +86,7 @@ RunJob job_of(const Particle& particle, const std::string& body, const Certified
   job.label = fmt::format("impact on ({:.2f}, {:.2f}, {:.2f})", n[0], n[1], n[2]);
   job.key = fmt::format("{} thrown velocity={:.17g} direction={:.17g},{:.17g},{:.17g} cells={} solver={}",
                         body, impact.check.velocity, n[0], n[1], n[2], impact.cells, solver_id());
+  job.cost = std::pow(impact.cells, 4);  // of one body: cells, and steps
   job.run = [particle, impact](const RunOptions& given) {
     RunOptions options = given;
     options.resolution = impact.cells;
@@ -163,6 +164,12 @@ std::string shape_text(const Shape& solid)
   constexpr std::size_t longest = 200;
   const std::string text = solid.definition();
   return text.size() <= longest ? text : fmt::format("{} {:016x}", solid.kind(), checksum(text));
+}
+
+std::size_t certificate_runs(const Particle& particle, const ShapeQuestion& question)
+{
+  const std::size_t count = impacts_of(*shape_of(particle), question).size();
+  return count + repeated(count).size();
 }
 
 ShapeCertificate certify_shape(const Particle& particle, const BodyLaw& law, const ShapeQuestion& question,

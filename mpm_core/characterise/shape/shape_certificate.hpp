@@ -12,6 +12,9 @@ namespace granulaw {
 /// ShapeCertificate::shape: the solid's definition, or what it begins with and a checksum of a long one.
 std::string shape_text(const Shape& solid);
 
+/// Runs of the solver that certify_shape makes.
+std::size_t certificate_runs(const Particle& particle, const ShapeQuestion& question);
+
 /// Throws the body in each direction and replays the law of a sphere of its material. The law's contact has
 /// the radius sqrt(R' R'') (a plastic contact of overlap delta has the area 2 pi delta sqrt(R' R''), whatever
 /// their ratio) and the mass that resists at the point (effective_mass_share). The first contact counts, as

@@ -140,6 +140,21 @@ RunResult run_with_estimate(const RunOptions& options, const Run& run)
 
 namespace {
 
+/// From a run's cost and its error estimate by two resolutions.
+ToleranceForecast forecast_of(const RunResult& run, double tolerance, double error_of_cells)
+{
+  const CellsRule& rule = is_spatial(run) ? spatial_rule : rule_of_revolution;
+  const double power = is_spatial(run) ? 4 : 3;  // of the cost: cells, and steps
+  const RunSummary& s = run.summary;
+  ToleranceForecast forecast{s.resolution, s.error_estimate, s.resolution, 0};
+  const auto scaled = [&](int cells) { return static_cast<double>(cells) / s.resolution; };
+  while (error_of_cells * std::pow(scaled(forecast.wanted_cells), -rule.order) > tolerance) {
+    forecast.wanted_cells = finer_rung(forecast.wanted_cells);
+    forecast.cpu_s += s.cpu_s * std::pow(scaled(forecast.wanted_cells), power);
+  }
+  return forecast;
+}
+
 /// The search of run_to_tolerance: each step refines `options` and notes what error is left.
 class ToleranceSearch
 {
@@ -156,7 +171,7 @@ class ToleranceSearch
   /// The ramp's error falls like its inverse square (inertia) or faster.
   void lengthen_ramp() { refine(&RunOptions::slowness, 2, 16, found_.ramp_error); }
 
-  ToleranceResult raise_resolution()
+  ToleranceResult raise_resolution(const std::function<void(const ToleranceForecast&)>& forecast)
   {
     int cells = std::max(range_.first, options_.resolution);
     RunResult coarse = run_at(options_, coarse_partner(cells));
@@ -168,7 +183,8 @@ class ToleranceSearch
       found_.resolution_error = error_between(found_.result, coarse);
       s.error_estimate = std::hypot(found_.resolution_error, found_.step_error, found_.ramp_error);
       found_.reached = s.error_estimate <= tolerance_;
-      if (found_.reached || cells / 0.7 > range_.last) break;
+      if (found_.reached || finer_rung(cells) > range_.last) break;
+      if (forecast) forecast(forecast_of(found_.result, tolerance_, found_.resolution_error));
       add_cost(spent_, s);
       coarse = std::move(found_.result);
     }
@@ -218,12 +234,13 @@ class ToleranceSearch
 }  // namespace
 
 ToleranceResult run_to_tolerance(double tolerance, bool has_ramp, const RunOptions& options, const Run& run,
-                                 const ToleranceRange& range)
+                                 const ToleranceRange& range,
+                                 const std::function<void(const ToleranceForecast&)>& forecast)
 {
   ToleranceSearch search(tolerance, options, run, range);
   search.shorten_step();
   if (has_ramp) search.lengthen_ramp();
-  return search.raise_resolution();
+  return search.raise_resolution(forecast);
 }
 
 }  // namespace granulaw

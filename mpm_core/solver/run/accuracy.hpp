@@ -71,14 +71,23 @@ struct ToleranceRange
   int probe;        ///< where time step and ramp are varied: their effect on F and e does not depend on it
 };
 inline constexpr ToleranceRange flat_range{14, 120, 10};
-/// Cost goes with the fourth power in three dimensions.
 inline constexpr ToleranceRange spatial_range{8, 100, 7};
+
+/// Cells and cost that the tolerance still takes, after a resolution that does not meet it.
+struct ToleranceForecast
+{
+  int cells = 0;           ///< of that resolution
+  double estimate = 0;     ///< its error estimate
+  int wanted_cells = 0;    ///< by the error rule of the cells; may lie beyond the range
+  double cpu_s = 0;        ///< of all runs up to there
+};
 
 /// Raises the resolution, step by step, until two of them agree to within `tolerance` in F_max and e; what
 /// the time step and, for a press (`has_ramp`), the ramp contribute is measured at a coarse resolution, where
 /// it costs little, and both are refined until they take no more than a quarter of the tolerance each.
-/// options.resolution, courant and slowness are where it starts.
+/// options.resolution, courant and slowness are where it starts. `forecast` is called before each further resolution.
 ToleranceResult run_to_tolerance(double tolerance, bool has_ramp, const RunOptions& options, const Run& run,
-                                 const ToleranceRange& range = flat_range);
+                                 const ToleranceRange& range = flat_range,
+                                 const std::function<void(const ToleranceForecast&)>& forecast = {});
 
 }  // namespace granulaw
