@@ -1,6 +1,6 @@
 // liggghts-mpm: LIGGGHTS with the models `mpm` and `thornton`. The stock main(), linked to the plug-in's
 // library. With -plan FILE it reads the deck and runs nothing: see plan/planner.hpp. With -steps N FILE it runs N
-// steps of it: see plan/short_run.hpp.
+// steps of it and writes none of its files: see plan/short_run.hpp.
 #include <mpi.h>
 #include <unistd.h>
 
@@ -27,6 +27,7 @@ extern "C" void granulaw_plan_file(const char* path, bool is_written);
 extern "C" bool granulaw_plan_end(int status);
 extern "C" void granulaw_plan_crash();
 extern "C" void granulaw_limit_steps(LAMMPS_NS::LAMMPS* lmp, long long steps, const char* file);
+extern "C" void granulaw_short_run_file(const char* path, bool is_written);
 extern "C" void granulaw_end_short_run();
 
 namespace {
@@ -66,13 +67,22 @@ void keep_screen(std::vector<char*>& words)
     if (is(words[k], {"-screen", "-sc"}) && is(words[k + 1], {"none"})) words[k + 1] = nowhere;
 }
 
-void require_one_rank()
+void require_one_rank(const char* option)
 {
   int ranks = 0;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   if (ranks == 1) return;
-  std::fputs("ERROR: -plan needs one rank\n", stderr);
+  std::fprintf(stderr, "ERROR: %s needs one rank\n", option);
   MPI_Abort(MPI_COMM_WORLD, 2);
+}
+
+/// Open MPI takes its own files away.
+void end_mpi()
+{
+  granulaw::plan::open_files();
+  int is_final = 0;
+  MPI_Finalized(&is_final);
+  if (!is_final) MPI_Finalize();
 }
 
 /// However the process ends: with the deck, `quit`, or an error.
@@ -80,9 +90,7 @@ void end_plan(int status, void*)
 {
   granulaw::plan::open_files();
   const bool ended = granulaw_plan_end(status);
-  int is_final = 0;
-  MPI_Finalized(&is_final);
-  if (!is_final) MPI_Finalize();
+  end_mpi();
   std::fflush(nullptr);
   _exit(ended ? 0 : 1);
 }
@@ -108,7 +116,7 @@ void follow_crashes()
 
 void plan(std::vector<char*> words, const char* file)
 {
-  require_one_rank();
+  require_one_rank("-plan");
   static char log[] = "-log", none[] = "none";
   words.insert(words.end(), {log, none});
   granulaw::plan::close_files();
@@ -140,23 +148,26 @@ int main(int argc, char** argv)
 
   // Else Open MPI starts a daemon where there is no mpirun, which takes 0.4 s.
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  // Processes that begin and end at one moment take each other's folder away: without mpirun none needs one.
+  if (!std::getenv("PMIX_RANK")) setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a file has all lines, however the process ends
   MPI_Init(&argc, &argv);
   std::vector<char*> words(argv, argv + argc);
   keep_screen(words);
   if (const auto file = take_option(words, "-plan", 1); !file.empty()) plan(words, file[0]);
   const auto limit = take_option(words, "-steps", 2);
-  const long long steps = limit.empty() ? 0 : steps_of(limit[0]);
+  if (!limit.empty()) require_one_rank("-steps"), granulaw::plan::close_files();
   auto* lammps = new LAMMPS_NS::LAMMPS(static_cast<int>(words.size()), words.data(), MPI_COMM_WORLD);
   granulaw_provide_contact_histories(lammps);
-  int ranks = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  if (!limit.empty() && ranks == 1)
-    granulaw::plan::read_on_one_rank([=](std::FILE* stream) { return stream == lammps->infile; });
-  if (!limit.empty())
-    granulaw::plan::follow_reads([=](std::FILE* stream) {
-      if (stream == lammps->infile) granulaw_limit_steps(lammps, steps, limit[1]);
+  if (!limit.empty()) {
+    std::atexit(&end_mpi);
+    const auto is_deck = [=](std::FILE* stream) { return stream == lammps->infile; };
+    granulaw::plan::read_on_one_rank(is_deck);
+    granulaw::plan::follow_files(&granulaw_short_run_file);
+    granulaw::plan::follow_reads([=, steps = steps_of(limit[0])](std::FILE* stream) {
+      if (is_deck(stream)) granulaw_limit_steps(lammps, steps, limit[1]);
     });
+  }
   lammps->input->file();
   granulaw_end_short_run();
   delete lammps;

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <mpi.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -63,10 +65,38 @@ std::FILE* really_open(const char* path, const char* mode)
   return open(path, mode);
 }
 
+/// Folders that the deck made, none of which is there, and the one of them that it went to; empty: none.
+std::set<std::string> made_folders;
+std::string made_folder;
+
 std::string key_of(const char* path)
 {
   std::error_code ignored;
-  return std::filesystem::absolute(path, ignored).lexically_normal().string();
+  const auto whole = std::filesystem::absolute(std::filesystem::path(made_folder) / path, ignored).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).string();
+}
+
+int not_there()
+{
+  errno = ENOENT;
+  return -1;
+}
+
+int make_folder(const char* path)
+{
+  made_folders.insert(key_of(path));
+  return 0;
+}
+
+int go_to_folder(const char* path)
+{
+  static auto* const go = next<int(const char*)>("chdir");
+  if (!closed) return go(path);
+  const std::string folder = key_of(path);
+  const bool is_made = go(folder.c_str()) != 0;
+  if (is_made && !made_folders.contains(folder)) return not_there();
+  made_folder = is_made ? folder : "";
+  return 0;
 }
 
 void copy_into(int memory, const char* path)
@@ -91,7 +121,7 @@ std::FILE* open_in_memory(const char* path, const char* mode)
   const auto [found, is_new] = written().try_emplace(key_of(path), -1);
   if (found->second < 0) {
     found->second = memfd_create("deck", MFD_CLOEXEC);
-    if (keeps && is_new) copy_into(found->second, path);
+    if (keeps && is_new) copy_into(found->second, found->first.c_str());
   }
   return really_open(path_in_memory(found->second).c_str(), mode);
 }
@@ -99,13 +129,7 @@ std::FILE* open_in_memory(const char* path, const char* mode)
 bool is_there(const char* path)
 {
   const auto own = written().find(key_of(path));
-  return own == written().end() ? ::access(path, F_OK) == 0 : own->second >= 0;
-}
-
-int not_there()
-{
-  errno = ENOENT;
-  return -1;
+  return own == written().end() ? ::access(key_of(path).c_str(), F_OK) == 0 : own->second >= 0;
 }
 
 int take_away(const char* path)
@@ -120,9 +144,9 @@ int move_file(const char* from, const char* to)
 {
   if (!is_there(from)) return not_there();
   std::error_code ignored;
-  if (std::filesystem::is_directory(from, ignored)) return 0;
+  if (std::filesystem::is_directory(key_of(from), ignored)) return 0;
   const auto [found, is_new] = written().try_emplace(key_of(from), -1);
-  if (is_new) copy_into(found->second = memfd_create("deck", MFD_CLOEXEC), from);
+  if (is_new) copy_into(found->second = memfd_create("deck", MFD_CLOEXEC), found->first.c_str());
   written()[key_of(to)] = std::exchange(found->second, -1);
   return 0;
 }
@@ -141,7 +165,7 @@ std::FILE* open_file(const char* path, const char* mode)
     errno = ENOENT;
     return nullptr;
   }
-  std::FILE* file = really_open(own == written().end() ? path : path_in_memory(own->second).c_str(), mode);
+  std::FILE* file = really_open(own != written().end() ? path_in_memory(own->second).c_str() : made_folder.empty() ? path : key_of(path).c_str(), mode);
   if (file) places()[file] = {path};
   if (file && on_file && own == written().end()) on_file(path, false);
   return file;
@@ -192,6 +216,10 @@ void follow_part(std::FILE* file, const char* part, std::size_t length)
 void close_files()
 {
   closed = true;
+  rlimit files{};  // each file that is written stays open
+  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+  files.rlim_cur = files.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &files);
 }
 
 void open_files()
@@ -271,7 +299,12 @@ GRANULAW_OWN int system(const char* command)
 GRANULAW_OWN int mkdir(const char* path, mode_t mode) noexcept
 {
   static auto* const make = granulaw::plan::next<int(const char*, mode_t)>("mkdir");
-  return granulaw::plan::closed ? 0 : make(path, mode);
+  return granulaw::plan::closed ? granulaw::plan::make_folder(path) : make(path, mode);
+}
+
+GRANULAW_OWN int chdir(const char* path) noexcept
+{
+  return granulaw::plan::go_to_folder(path);
 }
 
 GRANULAW_OWN int rmdir(const char* path) noexcept
@@ -302,6 +335,7 @@ GRANULAW_OWN int MPI_File_open(MPI_Comm comm, const char* path, int mode, MPI_In
 {
   if (!granulaw::plan::closed || !(mode & (MPI_MODE_WRONLY | MPI_MODE_RDWR | MPI_MODE_CREATE)))
     return PMPI_File_open(comm, path, mode, info, file);
+  if (granulaw::plan::on_file) granulaw::plan::on_file(path, true);
   return PMPI_File_open(comm, "/dev/null", MPI_MODE_WRONLY, info, file);
 }
 

@@ -31,6 +31,11 @@ extern "C" __attribute__((visibility("default"))) void granulaw_limit_steps(LAMM
   granulaw::plugin::plan::limit_steps(lmp, steps, file);
 }
 
+extern "C" __attribute__((visibility("default"))) void granulaw_short_run_file(const char* path, bool is_written)
+{
+  granulaw::plugin::plan::note_file_of_short_run(path, is_written);
+}
+
 extern "C" __attribute__((visibility("default"))) void granulaw_end_short_run()
 {
   granulaw::plugin::plan::write_short_run();

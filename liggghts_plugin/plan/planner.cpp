@@ -1,8 +1,6 @@
 #include "liggghts_plugin/plan/planner.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +20,7 @@
 #include "liggghts_plugin/engine/fix_style.hpp"
 #include "liggghts_plugin/engine/private_members.hpp"
 #include "liggghts_plugin/plan/dry_run.hpp"
+#include "liggghts_plugin/plan/result_file.hpp"
 #include "liggghts_plugin/plan/sweep.hpp"
 #include "primitive_wall.h"
 #include "region.h"
@@ -177,7 +176,7 @@ void Planner::note_style(const lmp::FixWallGran* wall_fix, const std::string& mo
   record_.model = model;
   record_.stretch = options.stretch.value_or(1.0);
   const auto& law = options.own_words("law");
-  record_.law = law.empty() ? "" : law[0];
+  record_.law_file = law.empty() ? "" : law[0];
   record_.material_names = options.own_words("materials");
   record_.yield_pressure = yield_pressure_of(options);
 }
@@ -189,7 +188,9 @@ void Planner::begin_line(const std::string& where, const std::string& text)
   drop_written_histories();
   stop_where_late();
   where_ = where;
-  crash_ = Record::json_of_stop(where);
+  Record stopped;
+  stopped.stopped_at = where;
+  crash_ = stopped.json();
   loops_.pass_on();
   if ((lmp_->input->*exposed(SoughtLabel{})) != 0) return;  // a jump goes past it
   if (const std::string value = run_value_of_branch(lmp_->input->variable, text); !value.empty())
@@ -227,9 +228,9 @@ void Planner::record_command()
 {
   const char* command = lmp_->input->*exposed(InputCommand{});
   if (!command || where_.empty() || (lmp_->input->*exposed(SoughtLabel{})) != 0) return;
-  Command done{where_, {command}};
-  done.words.insert(done.words.end(), lmp_->input->arg, lmp_->input->arg + lmp_->input->narg);
-  record_.add_command(std::move(done));
+  std::vector<std::string> words{command};
+  words.insert(words.end(), lmp_->input->arg, lmp_->input->arg + lmp_->input->narg);
+  record_.add_command(where_, std::move(words));
 }
 
 /// A restart file's histories of contacts: planned walls keep none.
@@ -348,7 +349,9 @@ Wall& Planner::wall(const std::string& where, const std::string& id)
 {
   for (Wall& w : record_.walls)
     if (w.id == id && w.where == where) return w;
-  record_.walls.push_back({where, id, {}, 1, {}, 0, 0, false});
+  record_.walls.emplace_back();
+  record_.walls.back().where = where;
+  record_.walls.back().id = id;
   return record_.walls.back();
 }
 
@@ -674,21 +677,14 @@ bool Planner::finish(int status)
     record_.stopped_at = where_;
   else
     record_command(), after_command(), record_without_run();
-  const std::string text = record_.json();
-  const int out = open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  std::size_t done = 0;
-  for (ssize_t n; out >= 0 && done < text.size(); done += static_cast<std::size_t>(n))
-    if ((n = write(out, text.data() + done, text.size() - done)) <= 0) break;
-  if (out >= 0 && done == text.size() && close(out) == 0) return record_.stopped_at.empty();
+  if (write_result(file_, record_.json())) return record_.stopped_at.empty();
   std::fprintf(stderr, "ERROR: %s: cannot be written\n", file_.c_str());
   return false;
 }
 
 void Planner::note_crash() const
 {
-  const int out = open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  if (out < 0 || write(out, crash_.data(), crash_.size()) < 0) return;
-  close(out);
+  write_result(file_, crash_);
 }
 
 }  // namespace plan

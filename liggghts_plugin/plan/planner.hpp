@@ -37,8 +37,6 @@ class Planner
   void note_file(const std::string& path, bool is_written) { record_.add_file(path, is_written); }
   /// A run that is set up, before its first step.
   void begin_run();
-  /// Behind its first step, in which particles were inserted.
-  void first_step_done();
   /// Meshes go where their motion takes them but for the last step.
   void move_meshes(double steps);
   void hold_insertions();
@@ -68,8 +66,7 @@ class Planner
     double spheres = 1;          ///< of one particle, in the mean
     bool began = false;
     int before = 0;  ///< particles that it had inserted when the run began
-    double expected = 0;
-    LAMMPS_NS::bigint next = 0, end = 0;
+    LAMMPS_NS::bigint next = 0;
   };
   struct Atom
   {
@@ -111,7 +108,6 @@ class Planner
   std::map<std::string, MeshMotion> motions_;
   std::map<std::string, Insertion> insertions_;
   std::unordered_map<int, Atom> atoms_;        ///< by tag, when the last run ended
-  std::map<int, std::size_t> source_of_type_;  ///< of atoms that no insertion brought
   std::string atoms_where_;
   LAMMPS_NS::bigint natoms_ = 0;
   std::vector<double> fingerprint_;

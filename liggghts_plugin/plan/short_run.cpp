@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "liggghts_plugin/engine/liggghts.hpp"
+#include "liggghts_plugin/plan/result_file.hpp"
 #include "verlet.h"
 
 namespace granulaw::plugin::plan {
@@ -17,6 +18,7 @@ struct State
 {
   LAMMPS_NS::LAMMPS* lmp = nullptr;
   std::string file;
+  std::set<std::string> files_written;
   long long left = 0, done = 0;
   double time = 0;  ///< s, of all runs
   bool is_written = false;
@@ -47,11 +49,16 @@ class ShortRun final : public LAMMPS_NS::Verlet
 
 void limit_steps(LAMMPS_NS::LAMMPS* lmp, long long steps, const std::string& file)
 {
-  if (!state.lmp) state = {.lmp = lmp, .file = file, .left = steps};
+  if (!state.lmp) state.lmp = lmp, state.file = file, state.left = steps;
   LAMMPS_NS::Update& update = *lmp->update;
   if (dynamic_cast<ShortRun*>(update.integrate) || !dynamic_cast<LAMMPS_NS::Verlet*>(update.integrate)) return;
   delete update.integrate;
   update.integrate = new ShortRun(lmp);
+}
+
+void note_file_of_short_run(const char* path, bool is_written)
+{
+  if (is_written) state.files_written.insert(path);
 }
 
 void write_short_run()
@@ -68,11 +75,10 @@ void write_short_run()
   }
   MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, state.lmp->world);
   if (state.lmp->comm->me != 0) return;
-  const nlohmann::json root{{"steps", state.done}, {"time", state.time}, {"particles", sums[0]}, {"kinetic_energy", sums[1]}};
-  if (std::FILE* out = std::fopen(state.file.c_str(), "w")) {
-    std::fputs((root.dump(1) + "\n").c_str(), out);
-    std::fclose(out);
-  }
+  const nlohmann::json root{
+      {"steps", state.done}, {"time", state.time}, {"particles", sums[0]}, {"kinetic_energy", sums[1]}, {"files_written", state.files_written}};
+  if (!write_result(state.file, root.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"))
+    std::fprintf(stderr, "ERROR: %s: cannot be written\n", state.file.c_str());
 }
 
 }  // namespace granulaw::plugin::plan

@@ -113,7 +113,7 @@ class TestFiles(Convert):
         now, _ = self.convert()
         assert "include parts/materials.in" in now
         assert "5000000000" in (self.out / "parts/materials.in").read_text()
-        assert self.run_converted()["particles"] == 50
+        run(LAUNCHER, "-in", "in.deck", cwd=self.out)
         assert list((self.out / "post").glob("d*.txt"))
 
     def test_its_own_folder_is_refused(self):
@@ -137,7 +137,7 @@ class TestFiles(Convert):
         assert "log log.liggghts" in now
         assert "include parts/materials.in" in now
         assert "write_restart bed.restart" in now
-        self.run_converted(20)
+        run(LAUNCHER, "-in", "in.deck", cwd=self.out)
         assert (self.out / "bed.restart").is_file()
         assert not (self.folder / "DEM/bed.restart").exists()
 
@@ -470,4 +470,14 @@ class TestCheck(Convert):
         # 3 ms of free fall: the converted deck's step differs at most
         assert now["kinetic_energy"] / original["kinetic_energy"] == approx(1, abs=0.01)
         assert (said["check"]["files_missing"], said["check"]["files_new"]) == ([], [])
-        assert not list((self.out / "post").glob("*"))  # in a copy
+        assert not list((self.out / "post").glob("*"))
+
+    def test_neither_writes_a_file_nor_starts_a_program(self):
+        """Absolute paths and the shell would reach behind any copy."""
+        kept, other = self.folder / "kept.1", self.folder / "other"
+        kept.write_text("kept\n")
+        self.write("in.deck", DECK + REST + f"dump k all custom 1 {self.folder}/kept.* id\nshell touch {other}\n" + RUN)
+        _, said = self.convert("--check")
+        assert said["check"]["original"]["steps"] == 300
+        assert (said["check"]["files_missing"], said["check"]["files_new"]) == ([], [])
+        assert kept.read_text() == "kept\n" and not other.exists()

@@ -57,6 +57,10 @@ def state_of(folder):
     return {str(p.relative_to(folder)): p.read_bytes() if p.is_file() else None for p in sorted(folder.rglob("*"))}
 
 
+def radii(source):
+    return [source["radius_min"], source["radius_max"]]
+
+
 class Planned(Deck):
     def scene(self, text, *words):
         (self.folder / "in.deck").write_text(text)
@@ -82,7 +86,7 @@ class TestScenes(Planned):
         assert scene["gravity"][2] == approx(-9.81, abs=0.5e-12)
         assert scene["domain"] == {"low": [-0.1, -0.1, 0.0], "high": [0.1, 0.1, 0.5]}
         assert scene["periodic"] == [False] * 3
-        assert [(m["type"], m["youngs_modulus"], m["poisson_ratio"]) for m in scene["materials"]] == [(1, 91e6, 0.3), (2, 210e9, 0.25)]
+        assert [(t, m["youngs_modulus"], m["poisson_ratio"]) for t, m in scene["materials"]] == [(1, 91e6, 0.3), (2, 210e9, 0.25)]
         assert scene["restitution"] == 0.4
         assert [(r["steps"], r["time_step"], r["particles"], r["where"].split(":")[0]) for r in scene["runs"]] == [(300, 1e-5, 1, "in.deck"), (700, 2e-5, 1, "in.deck")]
         assert scene["time_step"] == 2e-5
@@ -95,8 +99,8 @@ class TestScenes(Planned):
                 "run 10\nset type 1 diameter 0.006\ndisplace_atoms all move 0 0 0.1\nrun 10\n")
         one, two = sorted(self.scene(BOX + FLOOR + ONE + more)["sources"], key=lambda s: s["type"])
         assert (one["type"], two["type"], one["count"], two["count"]) == (1, 2, 1, 1)
-        assert one["radius"] == [0.002, 0.003]  # before and after the set
-        assert two["radius"] == [0.004, 0.004]
+        assert radii(one) == [0.002, 0.003]  # before and after the set
+        assert radii(two) == [0.004, 0.004]
         assert two["density"] == approx(2000, abs=1e-9)
         assert one["speed"] == approx(5, abs=1e-12)
         assert one["centres"]["high"][2] == approx(0.4, abs=0.5e-12)  # 0.3, and then 0.1 more
@@ -111,7 +115,7 @@ class TestScenes(Planned):
     def test_insertions(self):
         deck = BOX + FLOOR + SPHERES
         source, = self.scene(deck + insertion("particles_in_region 100") + "run 1000\n")["sources"]
-        assert (source["type"], source["radius"], source["count"]) == (1, [0.002, 0.002], 100)
+        assert (source["type"], radii(source), source["count"]) == (1, [0.002, 0.002], 100)
         assert source["density"] == approx(1000, abs=1e-9)
         assert (source["speed"], source["centres"]["low"], source["centres"]["high"]) == (0.5, approx([-0.048, -0.048, 0.102]), approx([0.048, 0.048, 0.198]))  # all in
         # as LIGGGHTS counts: every 400 steps from the first on, in two runs as in one
@@ -190,12 +194,12 @@ class TestScenes(Planned):
                 + FLOOR.replace("model hertz tangential history primitive type 2 zplane 0.0", "model mpm tangential history primitive type 2 zplane 0.0 wall deformable"))
         deck = deck.replace("fix m3", "#")  # refused beside a law
         scene = self.scene(deck + ONE + "variable p equal f_granulaw\nthermo_style custom step atoms v_p\nrun 1000\n")
-        assert scene["pair_style"] == {"model": "mpm", "law": "gone.h5", "materials": ["wax", "steel"], "stretch": 4.0, "yield_pressure": 1.6}
+        assert [scene[k] for k in ("model", "law_file", "material_names", "stretch", "yield_pressure")] == ["mpm", "gone.h5", ["wax", "steel"], 4.0, 1.6]
         assert scene["walls"][0]["deformable"]
         assert scene["walls"][0]["model"] == "mpm"
         thornton = BOX.replace("model hertz tangential history", "model thornton tangential history yieldPressure 2.5")
         thornton += "fix m5 all property/global yieldStress peratomtype 1e7 1e7\n"
-        assert self.scene(thornton + ONE + "run 1000\n")["pair_style"]["yield_pressure"] == 2.5
+        assert self.scene(thornton + ONE + "run 1000\n")["yield_pressure"] == 2.5
 
     def test_clumps_have_their_bodys_mass(self):
         (self.folder / "two").write_text("0 0 -0.002 0.002\n0 0 0.002 0.003\n")
@@ -207,21 +211,21 @@ run 100
 """
         deck = deck.replace("fix move all nve/sphere\n", "")
         source, = self.scene(deck)["sources"]
-        assert (source["radius"], source["count"]) == ([0.002, 0.003], 40)
+        assert (radii(source), source["count"]) == ([0.002, 0.003], 40)
         ball = 4 / 3 * math.pi * 0.002**3
         body = 1000 * 4 / 3 * math.pi * (0.002**3 + 0.003**3)
         assert source["density"] * ball / body == approx(1, abs=0.05)  # LIGGGHTS counts the overlap of the spheres by 10,000 throws
 
     def test_decks_without_a_run(self):
         scene = self.scene(BOX + FLOOR + SPHERES)
-        assert scene["sources"][0]["radius"] == [0.002, 0.002]
+        assert radii(scene["sources"][0]) == [0.002, 0.002]
         assert [w["id"] for w in scene["walls"]] == ["floor"]
 
     def test_radii_that_a_fix_changes(self):
         grow = "variable grown equal 0.004+0.002*step/1000\nfix a all adapt 1 atom diameter v_grown\n"
         source, = self.scene(BOX + FLOOR + ONE + grow + "run 1000\n")["sources"]
-        assert source["radius"][0] == approx(0.002, abs=1e-5)
-        assert source["radius"][1] == approx(0.003, abs=1e-5)
+        assert source["radius_min"] == approx(0.002, abs=1e-5)
+        assert source["radius_max"] == approx(0.003, abs=1e-5)
 
 
 LONG = "".join(f" {k}" for k in range(1000))  # LIGGGHTS reads lines with a buffer that grows: 256, 2048 and so on
@@ -231,7 +235,7 @@ class TestLines(Planned):
     """A command is joined to the line of the file where it begins, whatever the lines before it are."""
 
     def commands(self, text, *words):
-        return {(c["where"], *c["words"][:2]) for c in self.scene(text, *words)["commands"]}
+        return {(f"{c['file']}:{c['line']}", *c["words"][:2]) for c in self.scene(text, *words)["commands"]}
 
     @mark.parametrize("line", ("#{}", "variable a string \"{}\"", "print '{}' # ends", "thermo 10 # a note {} &\nand its second line", "thermo &\n10 # {}"))
     def test_long_lines(self, line):
@@ -356,6 +360,20 @@ run 1
         assert len(scene["runs"]) == 3
         assert max(s["speed"] for s in scene["sources"]) == 2
         assert sorted(p.name for p in self.folder.iterdir() if p.suffix != ".h5") == ["in.deck", "scene.json"]
+
+    def test_folders_that_the_deck_makes_and_goes_to(self):
+        (self.folder / "more.in").write_text(FLOOR + ONE)
+        (self.folder / "there").mkdir()
+        (self.folder / "there/steps.in").write_text("variable n index 7\n")
+        moved = "shell mkdir made made/deeper\nshell cd made/deeper\nshell cd ..\nprint x file own\ninclude ../there/steps.in\nshell cd ../there\ninclude ../more.in\nshell cd ..\n"
+        assert self.scene(BOX + moved + "run $n\n")["runs"][0]["steps"] == 7
+        assert sorted(p.name for p in self.folder.iterdir() if p.suffix != ".h5") == ["in.deck", "more.in", "scene.json", "there"]
+
+    def test_a_program_that_a_plan_does_not_start(self):
+        (self.folder / "in.deck").write_text(BOX + "shell sed s/a/b/ in.deck > made.in\ninclude made.in\nrun 1\n")
+        text = self.mpm("plan", "in.deck", code=1).stderr
+        assert "made.in" in text and "'shell sed s/a/b/ in.deck > made.in' of line" in text
+        assert not (self.folder / "made.in").exists()
 
     def test_files_that_the_deck_moves_and_removes(self):
         (self.folder / "there").write_text("variable a index 5\n")

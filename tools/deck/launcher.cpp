@@ -9,9 +9,9 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "liggghts_plugin/plan/scene_json.hpp"
 
 namespace granulaw::deck {
 
@@ -65,8 +65,16 @@ void leave_mpi()
   _exit(127);
 }
 
+/// Words and file of a process.
+struct Output
+{
+  bool ended = false;  ///< without an error
+  std::string said;
+  nlohmann::json file;  ///< discarded: it is none
+};
+
 /// liggghts-mpm with an option that takes a path as its last value.
-DryRun start_launcher(const std::string& folder, const std::vector<std::string>& option,
+Output start_launcher(const std::string& folder, const std::vector<std::string>& option,
                       const std::vector<std::string>& words)
 {
   const std::string program = fs::absolute(launcher()).string();
@@ -80,7 +88,7 @@ DryRun start_launcher(const std::string& folder, const std::vector<std::string>&
   const pid_t child = fork();
   if (child == 0) start(folder, command, output[1]);
   close(output[1]);
-  DryRun result;
+  Output result;
   result.said = read_all(output[0]);
   close(output[0]);
   int status = 0;
@@ -90,7 +98,7 @@ DryRun start_launcher(const std::string& folder, const std::vector<std::string>&
     result.said += fmt::format("\nERROR: LIGGGHTS was ended by signal {} ({})\n", WTERMSIG(status), strsignal(WTERMSIG(status)));
   result.ended = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   lseek(scene, 0, SEEK_SET);
-  result.scene = read_all(scene);
+  result.file = nlohmann::json::parse(read_all(scene), nullptr, false);
   close(scene);
   return result;
 }
@@ -99,21 +107,23 @@ DryRun start_launcher(const std::string& folder, const std::vector<std::string>&
 
 DryRun dry_run(const std::string& folder, const std::vector<std::string>& words)
 {
-  return start_launcher(folder, {"-plan"}, words);
+  Output run = start_launcher(folder, {"-plan"}, words);
+  const bool is_scene = run.file.is_object();
+  return {run.ended && is_scene, is_scene ? run.file.get<Scene>() : Scene{}, std::move(run.said)};
 }
 
 ShortRun short_run(const std::string& folder, const std::vector<std::string>& words, long long steps)
 {
   std::vector<std::string> quiet = words;
   quiet.insert(quiet.end(), {"-log", "none"});
-  const DryRun run = start_launcher(folder, {"-steps", fmt::format("{}", steps)}, quiet);
+  const Output run = start_launcher(folder, {"-steps", fmt::format("{}", steps)}, quiet);
   ShortRun result;
   result.said = run.said;
-  const nlohmann::json state = nlohmann::json::parse(run.scene, nullptr, false);
+  const nlohmann::json& state = run.file;
   result.ended = run.ended && state.is_object();
   if (!result.ended) return result;
   result.steps = state["steps"], result.time = state["time"];
-  result.particles = state["particles"];
+  result.particles = state["particles"], result.files = state["files_written"];
   const nlohmann::json& energy = state["kinetic_energy"];  // null: no number
   result.kinetic_energy = energy.is_null() ? std::numeric_limits<double>::quiet_NaN() : energy.get<double>();
   return result;

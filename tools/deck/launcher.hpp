@@ -3,13 +3,15 @@
 #include <string>
 #include <vector>
 
+#include "liggghts_plugin/plan/scene.hpp"
+
 namespace granulaw::deck {
 
 /// Result of `liggghts-mpm -plan`.
 struct DryRun
 {
   bool ended = false;  ///< it read the deck to its end
-  std::string scene;   ///< JSON (liggghts_plugin/plan/record.hpp)
+  Scene scene;         ///< in the deck's units
   std::string said;    ///< on stdout and stderr
 };
 
@@ -22,9 +24,10 @@ struct ShortRun
   bool ended = false;  ///< without an error
   std::string said;
   double steps = 0, time = 0, particles = 0, kinetic_energy = 0;  ///< in the deck's units
+  std::vector<std::string> files;                                 ///< that it would have written
 };
 
-/// `liggghts-mpm -steps STEPS` with these words, started in `folder`.
+/// `liggghts-mpm -steps STEPS` with these words, started in `folder`. Nothing is written there, and no command of the shell is run.
 ShortRun short_run(const std::string& folder, const std::vector<std::string>& words, long long steps);
 
 }  // namespace granulaw::deck

@@ -1,10 +1,12 @@
 #include "deck/scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "base/error.hpp"
 #include "deck/launcher.hpp"
@@ -14,8 +16,6 @@ namespace granulaw::deck {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
-
 /// From the deck's units.
 void to_si(Scene& scene)
 {
@@ -38,7 +38,7 @@ void to_si(Scene& scene)
     for (double* value : {&s.radius_min, &s.radius_max, &s.speed}) *value *= length;
     s.density *= density;
     scale(s.centres);
-    for (Vec3& p : s.together) p = length * p;
+    for (Box::Point& p : s.together) p = length * p;
   }
   for (Wall& wall : scene.walls) {
     for (double* value : {&wall.speed, &wall.drag_speed, &wall.push_speed, &wall.level_push_speed, &wall.lift}) *value *= length;
@@ -46,115 +46,39 @@ void to_si(Scene& scene)
   }
 }
 
-/// Paths and places of a deck that was read in `folder`.
-class Places
+/// A path or place of a deck that was read in `folder`.
+std::string from(const std::string& folder, const std::string& path)
 {
- public:
-  explicit Places(std::string folder) : folder_(std::move(folder)) {}
-  std::string path(const std::string& of_deck) const
-  {
-    return folder_.empty() || of_deck.empty() || of_deck.starts_with('/')
-               ? of_deck
-               : (fs::path(folder_) / of_deck).string();
-  }
-  std::vector<std::string> sentences(const json& list) const
-  {
-    std::vector<std::string> result;
-    for (const json& item : list) result.push_back(path(item.get<std::string>()));
-    return result;
-  }
-
- private:
-  std::string folder_;
-};
-
-std::optional<double> optional_number(const json& value)
-{
-  return value.is_null() ? std::nullopt : std::optional(value.get<double>());
+  return folder.empty() || path.empty() || path.starts_with('/') ? path : (fs::path(folder) / path).string();
 }
 
-/// An infinite side is null.
-Box box_of(const json& j)
+/// Places and files of its own count from `folder`, those of its commands stay as the deck has them.
+void to_folder(Scene& scene, const std::string& folder)
 {
-  Box box;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (!j["low"][k].is_null()) box.low[k] = j["low"][k];
-    if (!j["high"][k].is_null()) box.high[k] = j["high"][k];
-  }
-  return box;
+  const auto place = [&](std::string& path) { path = from(folder, path); };
+  for (std::string* path : {&scene.law_file, &scene.left_loop, &scene.stopped_at}) place(*path);
+  for (auto* list : {&scene.notes, &scene.unknown_particles, &scene.unknown_speeds})
+    for (std::string& sentence : *list) place(sentence);
+  for (Source& s : scene.sources) place(s.where);
+  for (Wall& w : scene.walls) place(w.where);
+  for (Run& r : scene.runs) place(r.where);
 }
 
-Source source_of(const json& j, const Places& places)
+/// The last command of the shell that LIGGGHTS hands on: none is run while it only reads.
+std::string not_run(const Scene& scene)
 {
-  Source s;
-  s.where = places.path(j["where"]);
-  s.type = j["type"];
-  s.radius_min = j["radius"][0], s.radius_max = j["radius"][1];
-  s.density = j["density"];
-  s.centres = box_of(j["centres"]);
-  s.speed = j["speed"], s.count = j["count"];
-  for (const json& p : j["together"]) s.together.push_back(p.get<Vec3>());
-  return s;
+  const auto hands_on = [](const DeckCommand& c) {
+    static const std::set<std::string> own{"cd", "mkdir", "mv", "rm", "rmdir", "putenv"};
+    return c.words.size() > 1 && c.words[0] == "shell" && !own.contains(c.words[1]);
+  };
+  const auto last = std::find_if(scene.commands.rbegin(), scene.commands.rend(), hands_on);
+  if (last == scene.commands.rend()) return "";
+  return fmt::format(" ('{}' of line {} was not run: a plan starts no program)", fmt::join(last->words, " "), last->line);
 }
 
-Wall wall_of(const json& j, const Places& places)
+[[noreturn]] void refuse(const std::string& deck, const DryRun& run)
 {
-  return {places.path(j["where"]), j["id"],         j["type"],  box_of(j["box"]), j["speed"],
-          j["drag_speed"],         j["deformable"], j["model"], j["push_speed"],  j["level_push_speed"], j["lift"]};
-}
-
-TypeMaterial material_of(const json& j)
-{
-  return {optional_number(j["youngs_modulus"]), optional_number(j["poisson_ratio"]),
-          optional_number(j["yield_stress"])};
-}
-
-DeckCommand command_of(const json& j)
-{
-  const std::string where = j["where"];
-  const auto colon = where.rfind(':');
-  return {where.substr(0, colon), std::stoi(where.substr(colon + 1)), j["words"]};
-}
-
-Scene scene_of(const json& j, const Places& places)
-{
-  Scene scene;
-  scene.units = j["units"];
-  scene.gravity = j["gravity"].get<Vec3>();
-  scene.domain = box_of(j["domain"]);
-  scene.periodic = j["periodic"];
-  scene.dimension = j["dimension"];
-  scene.types = j["types"];
-  scene.time_step = j["time_step"];
-  for (const json& m : j["materials"]) scene.materials[m["type"]] = material_of(m);
-  scene.restart_stretch = optional_number(j["restart_stretch"]);
-  scene.restitution = optional_number(j["restitution"]);
-  scene.friction = j["friction"].get<std::vector<double>>();
-  const json& style = j["pair_style"];
-  scene.model = style["model"];
-  scene.law_file = places.path(style["law"]);
-  scene.material_names = style["materials"];
-  scene.stretch = style["stretch"];
-  scene.yield_pressure = style["yield_pressure"];
-  for (const json& s : j["sources"]) scene.sources.push_back(source_of(s, places));
-  for (const json& w : j["walls"]) scene.walls.push_back(wall_of(w, places));
-  for (const json& r : j["runs"])
-    scene.runs.push_back({places.path(r["where"]), r["steps"], r["time_step"], r["particles"], r["integrates"]});
-  scene.left_loop = places.path(j["left_loop"]);
-  scene.notes = places.sentences(j["notes"]);
-  scene.unknown_particles = places.sentences(j["unknown_particles"]);
-  scene.unknown_speeds = places.sentences(j["unknown_speeds"]);
-  for (const json& c : j["commands"]) scene.commands.push_back(command_of(c));
-  scene.files_read = j["files_read"];
-  scene.files_written = j["files_written"];
-  return scene;
-}
-
-[[noreturn]] void refuse(const std::string& deck, const DryRun& run, const Places& places)
-{
-  std::string where = deck;
-  if (!run.scene.empty())
-    if (const std::string at = json::parse(run.scene)["stopped_at"]; !at.empty()) where = places.path(at);
+  const std::string where = run.scene.stopped_at.empty() ? deck : run.scene.stopped_at;
   const std::string what = complaint(run.said);
   if (what.starts_with("LIGGGHTS was ended by signal"))
     fail(where, what + " in this command: where LIGGGHTS runs the deck, please report it");
@@ -163,7 +87,7 @@ Scene scene_of(const json& j, const Places& places)
          what.substr(25));
   if (what == "Substitution for illegal variable")
     fail(where, "a variable has no value here (" + what + "): give it by --var NAME VALUE");
-  fail(where, what);
+  fail(where, what + not_run(run.scene));
 }
 
 }  // namespace
@@ -187,13 +111,6 @@ std::vector<std::string> words_of(const std::string& deck, const Presets& preset
   return words;
 }
 
-double Scene::count() const
-{
-  double sum = 0;
-  for (const Source& s : sources) sum += s.count;
-  return sum;
-}
-
 Scene read_scene(const std::string& deck, const Presets& presets)
 {
   std::error_code ignored;
@@ -208,9 +125,9 @@ Scene read_scene(const std::string& deck, const Presets& presets)
       folder.clear();
     }
   }
-  const Places places(folder);
-  if (!run.ended) refuse(deck, run, places);
-  Scene scene = scene_of(json::parse(run.scene), places);
+  to_folder(run.scene, folder);
+  if (!run.ended) refuse(deck, run);
+  Scene scene = std::move(run.scene);
   scene.deck = deck;
   scene.folder = folder;
   scene.presets = presets;

@@ -19,7 +19,7 @@ bool is_flat(const Wall& wall, std::size_t axis)
 bool starts_as_cloud(const Scene& scene)
 {
   return scene.sources.size() == 1 && !scene.sources[0].together.empty() && scene.sources[0].radius_max > 0 &&
-         scene.unknown_particles.empty() && scene.unknown_heights.empty() && scene.unknown_speeds.empty();
+         scene.unknown_particles.empty() && scene.unknown_speeds.empty();
 }
 
 /// The one floor across `axis`; empty: there is none, several, or what slides down a slope hits others from
@@ -159,15 +159,11 @@ double SpeedBound::start_speed(int type) const
 
 void SpeedBound::ask_for_missing(std::vector<Question>& questions) const
 {
-  bool unknown = !scene_.unknown_heights.empty();
+  bool unknown = false;
   for (const auto& [type, f] : flights_)
     if (g_ > 0 && (!f.known || !std::isfinite(floor_) || !std::isfinite(falling_speed(f, 0, floor_))))
       unknown = true;
-  if (unknown && !drop_height_)
-    ask(questions,
-        scene_.unknown_heights.empty() ? "from how high the particles fall"
-                                       : first_of(scene_.unknown_heights),
-        "--drop-height H");
+  if (unknown && !drop_height_) ask(questions, "from how high the particles fall", "--drop-height H");
   if (!scene_.unknown_speeds.empty()) ask(questions, first_of(scene_.unknown_speeds), "--speed V");
 }
 

@@ -9,7 +9,7 @@ namespace granulaw {
 
 namespace {
 
-const char* const source = "drops";  // leads sentences
+const char* const source = "drops.csv";  // leads sentences
 
 /// The bodies of the drops that `mpm calibrate` has options for: --partner like, --wall NAME.
 void set_partner(Measurement& m, const Request& r)

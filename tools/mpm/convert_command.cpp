@@ -270,7 +270,7 @@ void define(Options& command)
   command.add_flag("--no-stretch", r->no_stretch, "real contacts: the time step follows from them");
   command.add_flag("--accept-defaults", r->accept_defaults, "answer what the deck does not say by the defaults from the deck");
   command.add_flag("--check", r->check,
-                   "run 300 steps of the original and as much time of the converted deck, in copies, and compare particles,\n"
+                   "run 300 steps of the original and as much time of the converted deck, without writing their files, and compare particles,\n"
                    "kinetic energy and files. Exit code 1: only the converted deck stops");
   command.add_flag("--json", r->json, "as JSON");
   command.callback([r] { carry_out(*r); });

@@ -16,7 +16,7 @@ struct Checked
   std::vector<std::string> files_missing, files_new;  ///< written by one of them alone
 };
 
-/// Runs both in copies of the folder: 300 steps of the original, `step_factor` times as many of the converted deck.
+/// Runs both where they stand, without writing a file: 300 steps of the original, `step_factor` times as many of the converted deck.
 Checked check(const Scene& scene, const std::filesystem::path& folder, double step_factor);
 
 }  // namespace granulaw::deck
