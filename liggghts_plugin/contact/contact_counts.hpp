@@ -86,7 +86,10 @@ class ContactCounts
                     double from, double to) const
   {
     const double weight = this->weight(contact);
-    change_bin(*entry.counts, contact.contact_history, from, to, r_eff, weight);
+    if (to < from)
+      change_bin(*entry.counts, contact.contact_history, from, to, r_eff, weight);
+    else
+      move_in_histogram(*entry.counts, contact.contact_history, from, to, r_eff, weight);
     if (!energy_) return;
     const double held = entry.contact.stored_energy(r_eff, contact.deltan, to, impact_overlap) -
                         entry.contact.stored_energy(r_eff, contact.deltan, from, impact_overlap);

@@ -35,19 +35,17 @@ class OwnTangential : public cm::TangentialModelBase
     if (s.contact_flags) *s.contact_flags |= CONTACT_TANGENTIAL_MODEL;
     const auto& entry = normal_->entry_of(s);
     const Law& law = laws_[normal_->place(entry)];
-    const double r_eff = effective_radius(s), depth = *normal_->kept_of(s.contact_history);
-    if constexpr (requires { law.holds(entry.contact, r_eff, depth); })
-      if (law.holds(entry.contact, r_eff, depth)) {
-        const double shorter = shorter_lever(s, law);
-        Ledger books;  // of friction, which is other work
-        add(s, law.hold(motion(s, r_eff, shorter), s.Fn, depth, s.contact_history + offset_, books), shorter, on_i, on_j);
-        return;
-      }
-    const Forces now = advance(s, entry, law, r_eff);
-    for (int c = 0; c < 3; ++c) {
-      on_i.delta_F[c] += now.on_i.delta_F[c], on_i.delta_torque[c] += now.on_i.delta_torque[c];
-      on_j.delta_F[c] += now.on_j.delta_F[c], on_j.delta_torque[c] += now.on_j.delta_torque[c];
-    }
+    const double r_eff = effective_radius(s), shorter = shorter_lever(s, law);
+    ContactMotion moves = motion(s, r_eff, shorter);
+    moves.turn = rolling(s);
+    double* const depth = normal_->kept_of(s.contact_history);
+    const double before = *depth;
+    double normal_force = s.Fn;
+    Ledger books;
+    const Grip grip = law.advance(entry.contact, moves, normal_force, depth, s.contact_history + offset_, books);
+    if (*depth != before || books[Mechanism::shear] != 0.0) normal_force = book(s, entry, r_eff, before, normal_force, books);
+    add(s, grip.force, shorter, on_i, on_j);
+    add_more(s, normal_force - s.Fn, grip.couple, on_i, on_j);
   }
 
   void surfacesClose(cm::SurfacesCloseData& contact, ForceData&, ForceData&) override
@@ -59,34 +57,20 @@ class OwnTangential : public cm::TangentialModelBase
   void endPass(SurfacesIntersectData&, ForceData&, ForceData&) override {}
 
  private:
-  struct Forces
-  {
-    ForceData on_i, on_j;
-  };
-  /// Apart from the loop over contacts, whose numbers live in registers: it gets a copy, and gives one.
+  /// Books a step of a law that took the contact's depth along; the normal force behind it. Apart from the loop over contacts,
+  /// whose numbers live in registers: it gets a copy.
   template <class Entry>
-  [[gnu::noinline]] Forces advance(SurfacesIntersectData s, const Entry& entry, const Law& law, double r_eff)
+  [[gnu::noinline]] double book(SurfacesIntersectData s, const Entry& entry, double r_eff, double before, double normal_force,
+                                Ledger books) const
   {
-    double* const depth = normal_->kept_of(s.contact_history);
-    const double before = *depth, shorter = shorter_lever(s, law);
-    ContactMotion moves = motion(s, r_eff, shorter);
-    moves.turn = rolling(s);
-    double normal_force = s.Fn;
-    Ledger books;
-    const Grip grip = law.advance(entry.contact, moves, normal_force, depth, s.contact_history + offset_, books);
-    if (*depth != before) {
-      normal_->change_depth(s, entry, r_eff, before);
-      // it goes deeper, though its overlap is less than its depth: `elasticDamping` is of contacts that return
-      if (*depth > before && s.vn < 0.0) normal_force = std::max(normal_force + s.gamman * s.vn, 0.0);
-    }
+    const double depth = *normal_->kept_of(s.contact_history);
+    if (depth != before) normal_->change_depth(s, entry, r_eff, before);
     normal_->book(s, entry, books);
-    Forces sum;
-    add(s, grip.force, shorter, sum.on_i, sum.on_j);
-    add_more(s, normal_force - s.Fn, grip.couple, sum.on_i, sum.on_j);
-    return sum;
+    // it goes deeper, though its overlap is less than its depth: `elasticDamping` is of contacts that return
+    return depth > before && s.vn < 0.0 ? std::max(normal_force + s.gamman * s.vn, 0.0) : normal_force;
   }
 
-  ContactMotion motion(const SurfacesIntersectData& s, double r_eff, double shorter)
+  [[gnu::always_inline]] ContactMotion motion(const SurfacesIntersectData& s, double r_eff, double shorter)
   {
     const bool held = normal_->was_held();
     ContactMotion now{{r_eff, s.deltan, -s.vn, s.computeflag && s.shearupdate && !held},

@@ -90,10 +90,12 @@ struct Reversal
   double work() const { return (0.4 * term[0] + 1.0 / 3.0 * term[1] + 2.0 / 7.0 * term[2]) / per_span; }
   double work(double x) const
   {
-    const double u = part(x), root = std::sqrt(u);
-    return u <= 0.0 ? 0.0
-                    : u * u * root / per_span *
-                          (0.4 * term[0] + root * (1.0 / 3.0 * term[1] + root * (2.0 / 7.0 * term[2])));
+    const double u = part(x);
+    return u <= 0.0 ? 0.0 : work_at(u, std::sqrt(u));
+  }
+  double work_at(double u, double root) const
+  {
+    return u * u * root / per_span * (0.4 * term[0] + root * (1.0 / 3.0 * term[1] + root * (2.0 / 7.0 * term[2])));
   }
 };
 

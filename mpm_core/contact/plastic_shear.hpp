@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "contact/shear_return.hpp"
+#include "contact/facet.hpp"
 #include "contact/tangential.hpp"
 
 namespace granulaw {
@@ -37,7 +37,7 @@ struct BodiesInShear
 ///
 /// The dent is a facet of the body: a depth, which is the normal law's largest overlap, and a direction, which
 /// differs from the contact's normal by the tilt. The contact is elastic in overlap, slip and tilt, and flows where
-///     F > alpha(h) s(q) F_m                                                              (ShearYield, DiscSegment)
+///     F > alpha(phi') s(q) F_m                                                                (Facet, ShearYield)
 /// with the law's loading force F_m at the depth; friction is the outer limit of T. Elastic forces have a
 /// potential, and flow dissipates, so that no closed path gives work. Head-on it is the normal law; of a material
 /// that does not yield it is `history`, to the bit. Two bodies turn as one does on a wall at their relative turning.
@@ -49,8 +49,8 @@ class PlasticShear
       Kept{.name = "shear", .values = 3, .turns_with_exchange = true},  // N, on j, of the real contact; elastic: m
       Kept{.name = "shear_stiffness"},                                  // N/m, of the last step
       Kept{.name = "tilt", .values = 3},  // rad, in the direction that i rolls: the same for j
-      Kept{.name = "sheared"},  // m, sliding of the flow
-      Kept{.name = "depth"}};   // m, of the last step: the normal law has taken it along since where it loads
+      Kept{.name = "sheared"},            // m, sliding of the flow
+      Kept{.name = "depth"}};             // m, of the last step: the normal law has taken it along since where it loads
 
   PlasticShear() = default;
   /// `spring`: LIGGGHTS's, stretched as the law is; of it the friction, and all for a body that does not yield.
@@ -58,7 +58,7 @@ class PlasticShear
   PlasticShear(const Normal& law, const ShearPair& spring, const BodiesInShear& bodies)
       : elastic_(spring),
         damping_ratio_(bodies.damping_ratio),
-        material_{bodies.stiffness, bodies.asymmetry, spring.friction, law.pair_modulus(), law.radius_unit(), law.flow_stress()},
+        material_{bodies.stiffness, bodies.asymmetry, spring.friction, 1.0 / (law.radius_unit() * law.radius_unit()), law.flow_stress()},
         stretch_(law.stretch()),
         per_stretch_(1.0 / law.stretch())
   {
@@ -77,25 +77,20 @@ class PlasticShear
   Vector hold(const ContactMotion& m, double force, double deepest, double* kept, Ledger& books) const
   {
     if (!turns()) return elastic_.advance(m, force, kept, books);
-    const DentMotion step = motion(m);
-    DentMemory held = read(kept, m.normal);
+    const FacetMotion step = motion(m);
+    const FacetMemory held = read(kept, m.normal);
     const double k = material_.shear_stiffness * std::sqrt(m.r_eff * step.overlap);  // Hertz's radius
-    double taken = held.stretch(step.slide, k);
-    const double pull = norm(held.pull), most = material_.friction * (force * stretch_);
-    Vector braking{};
-    if (pull > most) {
-      held.pull = times(held.pull, most / pull);
-      taken += most * (pull - most) / k;
-    } else {
+    Vector pulls = held.stretched(step.slide, k), braking{};
+    const double pull = norm(pulls), most = material_.friction * (force * stretch_);
+    if (pull > most)
+      pulls = times(pulls, most / pull);
+    else
       braking = times(m.slide, 2.0 * damping_ratio_ * std::sqrt(k * m.m_eff));
-      taken += dot(braking, step.slide);
-    }
-    held.tilt = {}, held.depth = deepest * per_stretch_;
     if (m.advances) {
-      write(held, kept);
-      books[Mechanism::friction] += taken;
+      write({pulls, k, {}, held.sheared, deepest * per_stretch_}, kept);
+      books[Mechanism::friction] += held.taken(step.slide, pulls, k) + dot(braking, step.slide);
     }
-    return times(sum(held.pull, braking), -per_stretch_);
+    return times(sum(pulls, braking), -per_stretch_);
   }
 
   template <class Normal>
@@ -103,46 +98,110 @@ class PlasticShear
                Ledger& books) const
   {
     if (holds(law, m.r_eff, normal_kept[0])) return hold(m, force, normal_kept[0], kept, books);
-    const DentMotion step = motion(m);
-    DentMemory held = read(kept, m.normal);
-    Grip answer;
-    const double depth = normal_kept[0] * per_stretch_, latched = NormalState<Normal>::impact_overlap(normal_kept);
-    const auto dent_at = [&](double d) { return law.dent(m.r_eff, d, latched); };
-    const auto dent = law.dent(m.r_eff, depth, latched, normal_kept + NormalState<Normal>::own);
-    const double before = dent.force_at(step.overlap);
-    DentMemory whole = held;
-    DentState tried, now = ShearReturn(material_, dent_at, dent, before, whole, step).solve(tried);
-    double lost = now.lost;
-    if (const int parts = now.flows ? parts_of(step, dent) : 1; parts == 1) {
-      held = whole;
-      if (m.advances) book(held, step, tried, now, books);
-    } else {
-      for (int part = 1; part <= parts; ++part) {
-        const DentMotion some = step.part(part, parts);
-        const double begins = std::max(held.depth, some.overlap);
-        now = ShearReturn(material_, dent_at, dent_at(begins), before, held, some).solve(tried);
-        held.depth = now.depth;
-        book(held, some, tried, now, books);
-      }
-      lost = law.dissipated(m.r_eff, normal_kept[0], now.depth * stretch_, latched);
-    }
-    held.depth = now.depth;
-    force = std::max(force + (now.force - before) * per_stretch_, 0.0);  // keeps what is no number
-    answer.force = times(held.pull, -per_stretch_);
-    answer.couple = times(cross(m.normal, held.tilt), -now.moment * per_stretch_);
+    const FacetMotion step = motion(m);
+    const FacetMemory held = read(kept, m.normal);
+    const double latched = NormalState<Normal>::impact_overlap(normal_kept);
+    const auto dent = law.dent(m.r_eff, normal_kept[0] * per_stretch_, latched, normal_kept + NormalState<Normal>::own);
+    const FacetTrial trial(dent, material_, held, step);
+    if (trial.yields) return flow(law, trial, m, step, held, force, normal_kept, kept, books);
     if (m.advances) {
-      write(held, kept);
-      if (now.depth != depth) {
-        books[Mechanism::plastic] += lost;
-        normal_kept[0] = now.depth * stretch_;
-      }
+      write(trial.memory(held.sheared), kept);
+      books[Mechanism::friction] += trial.touches() ? held.taken(step.slide, trial.pull, trial.stiffness) : held.spring_energy();
     }
-    return answer;
+    return grip(trial, m, dent.force_at(step.overlap), force);
   }
 
  private:
+  /// Grip of a facet; `force` changes by what tilt and flow take from the law's `before`.
+  template <class Dent>
+  Grip grip(const Facet<Dent>& now, const ContactMotion& m, double before, double& force) const
+  {
+    force = std::max(force + (now.force - before) * per_stretch_, 0.0);  // keeps what is no number
+    Grip answer;
+    answer.force = times(now.pull, -per_stretch_);
+    answer.couple = times(cross(m.normal, now.moment()), -per_stretch_);
+    return answer;
+  }
+
+  /// A step in which the contact yields. Not inlined, and by value: most contacts of a loop are elastic, in registers.
+  template <class Normal, class Dent>
+  [[gnu::noinline]] Grip flow(const Normal& law, FacetTrial<Dent> trial, ContactMotion m, FacetMotion step, FacetMemory held,
+                              double& force, double* normal_kept, double* kept, Ledger& books) const
+  {
+    double* const own = normal_kept + NormalState<Normal>::own;
+    const double latched = NormalState<Normal>::impact_overlap(normal_kept), before = trial.dent.force_at(step.overlap);
+    const Dent pressed = trial.dent;  // by the normal law, which has booked its loss
+    double taken = 0, rubbed = 0;
+    FacetLoads loads = loads_before(law, pressed, latched, step, held, taken);
+    Facet<Dent> now = trial;
+    const int parts = parts_of(step, pressed);
+    for (int part = 1; part <= parts; ++part) {
+      const FacetMotion some = step.part(part, parts);
+      if (parts > 1)
+        trial = FacetTrial(law.dent(m.r_eff, std::max(held.depth, some.overlap), latched, own), material_, held, some);
+      now = trial;
+      double slid = 0;
+      if (trial.yields) {
+        const FacetFlow flow(trial, material_, held, some);
+        slid = flow.slid;
+        now = Facet<Dent>(law.dent(m.r_eff, std::max(trial.dent.depth + flow.deeper, some.overlap), latched, own), m.r_eff,
+                          sum(trial.tilt, flow.turned));
+        now.press(some.overlap, material_.shear_stiffness);
+        // softened by the flow, the spring keeps its stretch
+        const double pull = std::min(flow.pull * std::min(1.0, now.stiffness / trial.stiffness), material_.friction * now.force);
+        now.pull = trial.pulls > 0 ? times(trial.pull, pull / trial.pulls) : Vector{};
+        rubbed += pull * std::max(0.0, (trial.spring - pull) / trial.stiffness - slid);
+      }
+      const FacetLoads then(now);
+      taken += then.taken(loads, some);
+      loads = then, held = now.memory(held.sheared + slid);
+    }
+    if (m.advances) {
+      write(held, kept);
+      normal_kept[0] = held.depth * stretch_;
+      const double lost = lost_between(pressed, now.dent);
+      books[Mechanism::plastic] += lost;
+      books[Mechanism::friction] += rubbed;
+      books[Mechanism::shear] += taken - rubbed - lost;
+    }
+    return grip(now, m, before, force);
+  }
+
+  /// Loads before the step: the spring's stiffness says how much of the dent bore. `taken`: less what the normal law has lost
+  /// since.
+  template <class Normal, class Dent>
+  FacetLoads loads_before(const Normal& law, const Dent& pressed, double latched, const FacetMotion& step, const FacetMemory& held,
+                          double& taken) const
+  {
+    if (!(held.stiffness > 0)) return {};
+    const bool elastic = held.depth * stretch_ <= law.yield_overlap() * step.radius;  // it had no dent
+    const double depth = elastic ? std::clamp(step.overlap - step.deepening, 0.01 * held.depth, held.depth) : held.depth;
+    Facet<Dent> state(depth == pressed.depth ? pressed : law.dent(step.radius, depth, latched), step.radius, held.tilt);
+    const double a = held.stiffness / material_.shear_stiffness;
+    state.press_to(elastic ? 1.0 : a * a / state.dent.radius2, material_.shear_stiffness);
+    state.pull = held.pull;
+    taken -= lost_between(state.dent, pressed);
+    return FacetLoads(state);
+  }
+  /// J, that a head-on contact loses between two depths that lie near.
+  template <class Dent>
+  static double lost_between(const Dent& from, const Dent& to)
+  {
+    return 0.5 * (from.force + to.force) * (to.depth - from.depth) - (to.work() - from.work());
+  }
+
+  /// A flow is explicit in its direction: in dents of a tenth of R, parts of a two hundredth of the depth are as good as small
+  /// steps, and whole steps as good as them in shallow dents (docs/evidence/oblique.md).
+  template <class Dent>
+  static int parts_of(const FacetMotion& step, const Dent& dent)
+  {
+    constexpr double finest = 0.005, most = 16, deep = 0.1;
+    const double moves = std::max(std::abs(step.deepening), std::sqrt(dent.radius2) * norm(step.turn)) / (finest * dent.depth);
+    return static_cast<int>(std::max(1.0, std::ceil(std::min(most, moves) * std::min(1.0, dent.depth / (deep * step.radius)))));
+  }
+
   /// A step of the real contact.
-  DentMotion motion(const ContactMotion& m) const
+  FacetMotion motion(const ContactMotion& m) const
   {
     const double time = m.advances ? m.dt * per_stretch_ : 0.0;
     return {.radius = m.r_eff,
@@ -152,25 +211,15 @@ class PlasticShear
             .turn = times(m.turn, time)};
   }
 
-  /// A flow is explicit in its direction and in the sheared area. In dents of a tenth of R, parts of a two hundredth of
-  /// the depth are as good as small steps, and whole steps as good as them in shallow dents (docs/evidence/oblique.md).
-  template <class Dent>
-  static int parts_of(const DentMotion& step, const Dent& dent)
-  {
-    constexpr double finest = 0.005, most = 16, deep = 0.1;
-    const double moves = std::max(std::abs(step.deepening), dent.radius * norm(step.turn)) / (finest * dent.depth);
-    return static_cast<int>(std::max(1.0, std::ceil(std::min(most, moves) * std::min(1.0, dent.depth / (deep * step.radius)))));
-  }
-
   /// `keeps`, turned with the contact.
-  static DentMemory read(const double* kept, const Vector& normal)
+  static FacetMemory read(const double* kept, const Vector& normal)
   {
-    DentMemory held{{kept[0], kept[1], kept[2]}, kept[3], {kept[4], kept[5], kept[6]}, kept[7], kept[8]};
+    FacetMemory held{{kept[0], kept[1], kept[2]}, kept[3], {kept[4], kept[5], kept[6]}, kept[7], kept[8]};
     held.pull = sum(held.pull, normal, -dot(held.pull, normal));
     held.tilt = sum(held.tilt, normal, -dot(held.tilt, normal));
     return held;
   }
-  static void write(const DentMemory& held, double* kept)
+  static void write(const FacetMemory& held, double* kept)
   {
     std::copy_n(held.pull.begin(), 3, kept);
     kept[3] = held.stiffness;
@@ -178,24 +227,9 @@ class PlasticShear
     kept[7] = held.sheared, kept[8] = held.depth;
   }
 
-  /// Books a part of a step. The flow's loss is what the contact held before it and does not hold after it, less what it
-  /// was not given: motion works against the mean of the forces before and after; and less the normal law's.
-  static void book(const DentMemory& held, const DentMotion& step, const DentState& tried, const DentState& now, Ledger& books)
-  {
-    books[Mechanism::friction] += tried.rubbed + now.rubbed * now.flows;
-    if (!now.flows) return;
-    const Vector along = unit(held.pull);
-    const auto energy = [&](const DentState& state) {
-      const double given = state.force * step.deepening + state.pull * dot(along, step.slide) +
-                           state.moment * dot(state.tilt, step.turn);
-      return state.energy - 0.5 * given;
-    };
-    books[Mechanism::shear] += energy(tried) - energy(now) - now.rubbed - now.lost;
-  }
-
   Spring elastic_;  // of a body that does not yield
   double damping_ratio_ = 0;
-  DentMaterial material_;
+  FacetMaterial material_;
   double stretch_ = 1, per_stretch_ = 1;
 };
 

@@ -146,33 +146,21 @@ struct Tabulated
   struct Dent
   {
     Reversal back;
-    double per_length, unit;                 // 1/(lambda R*), and the force at x = 1
-    double depth, force, radius, residual;  ///< m, F_m in N, a_m in m, delta_r in m
+    double per_length, unit;       // 1/(lambda R*), and the force at x = 1
+    double depth, force, radius2;  ///< m, F_m in N, a_m^2 in m^2
+    double span, per_span;         ///< m, depth less residual overlap
 
-    double force_at(double delta) const { return unit * back.force(delta * per_length); }
-    /// force_at and its slope.
-    Response response_at(double delta) const
-    {
-      const double u = back.part(delta * per_length);
-      if (u <= 0.0) return {};
-      const double root = std::sqrt(u);
-      return {unit * back.force_at(u, root), unit * per_length * back.per_span * back.slope_at(u, root)};
-    }
-    /// J, given back from this overlap, or from the depth, to where the force ends.
-    double work_at(double delta) const { return unit / per_length * back.work(delta * per_length); }
+    static constexpr double growth = 0.6;  ///< d ln(span)/d ln(depth), nearly
+
+    double residual() const { return depth - span; }
+    /// u at an overlap; not positive: nothing touches. Force in N, its slope in N/m and the work that it gives back in J
+    /// at u.
+    double part(double delta) const { return back.part(delta * per_length); }
+    double force_of(double u) const { return unit * back.force_at(u, std::sqrt(u)); }
+    double slope_of(double u) const { return unit * per_span * back.slope_at(u, std::sqrt(u)); }
+    double work_of(double u) const { return unit / per_length * back.work_at(u, std::sqrt(u)); }
     double work() const { return unit / per_length * back.work(); }
-    /// On the straight line from this dent through another: `part` of the way, where the depth is `at`.
-    Dent toward(const Dent& other, double part, double at) const
-    {
-      const auto mean = [part](double one, double two) { return one + part * (two - one); };
-      Dent now = *this;
-      now.back.x_max = at * per_length;
-      now.back.per_span = mean(back.per_span, other.back.per_span);
-      for (int k = 0; k < 3; ++k) now.back.term[k] = mean(back.term[k], other.back.term[k]);
-      now.depth = at, now.force = mean(force, other.force), now.radius = mean(radius, other.radius);
-      now.residual = mean(residual, other.residual);
-      return now;
-    }
+    double force_at(double delta) const { return unit * back.force(delta * per_length); }
   };
   Dent dent(double r_eff, double depth, double impact_overlap) const
   {
@@ -186,10 +174,9 @@ struct Tabulated
   }
   Dent dent(double r_eff, double depth, const Reversal& back) const
   {
-    const double per_length = per_lambda * scale.stretch / r_eff, x = depth * per_length;
-    const double unit = force_scale * scale.stretch * r_eff * r_eff;
-    return {back,  per_length, unit, depth, unit * back.top(), mapping.radius(r_eff) * curve->radius(x),
-            back.residual() / per_length};
+    const double per_length = per_lambda * scale.stretch / r_eff, unit = force_scale * scale.stretch * r_eff * r_eff;
+    const double a = mapping.radius(r_eff) * curve->radius(depth * per_length), per_span = back.per_span * per_length;
+    return {back, per_length, unit, depth, unit * back.top(), a * a, 1.0 / per_span, per_span};
   }
   /// m, unit of contact radii over R*.
   double radius_unit() const { return mapping.radius(1.0); }
