@@ -125,17 +125,23 @@ class Limits(unittest.TestCase):
         self.assertIn(f"| {force['ellipsoid']} ellipsoid, {force['clump']} clump, {force['box']} rounded box; axes of 1 : 2 : 3: {force['elongated']} |", self.README)
 
     def test_oblique(self):
-        """Largest deviations of both tangential laws up to a contact radius of R/4."""
-        rows = [row for row in table_with(page("docs/evidence/oblique.md"), "| E\\*/Y | H/E | V/V_y | overlap/R |") if float(row[4]) <= 0.25]
+        """Largest deviations of both tangential laws up to a contact radius of R/4, and in deep dents."""
+        every = table_with(page("docs/evidence/oblique.md"), "| E\\*/Y | H/E | V/V_y | overlap/R |")
+
+        def deviations(rows, column, part):
+            return [abs(float(row[column].split("; ")[part].split(", ")[1])) for row in rows]
 
         def largest(column):
-            return [round(max(abs(float(row[column].split("; ")[part].split(", ")[1])) for row in rows)) for part in range(3)]
+            return [round(max(deviations([row for row in every if float(row[4]) <= 0.25], column, part))) for part in range(3)]
 
         (e, speed, spin), plastic = largest(6), largest(7)
         self.assertIn(f"spin up to {spin} %, tangential velocity {speed} %, e {e} % off", self.PAGE)
         self.assertIn(f"errs by up to {spin} %", self.README)
         self.assertIn(f"within {plastic[2]} %", self.README)
         self.assertIn(f"spin within {plastic[2]} %, tangential velocity {plastic[1]} %", page("docs/guide/tangential.md"))
+        deep = [deviations([row for row in every if round(float(row[3]), 2) >= 0.08], column, 2) for column in (6, 7)]
+        told = " | ".join(f"{min(spins):.0f} to {max(spins):.0f} %{off}" for spins, off in zip(deep, (" off", "")))
+        self.assertIn(f"| deep dents, overlap from 0.08 R on | spin {told} |", page("docs/guide/tangential.md"))
 
     def test_loop_time(self):
         text = page("docs/evidence/loop-time.md")
