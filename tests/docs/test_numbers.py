@@ -154,6 +154,15 @@ class Limits(unittest.TestCase):
         self.assertIn(f"is {low:.2f} to {high:.2f} of stock Hertz's in", self.README)
         self.assertIn(f"only a wall take {wall} of", self.README)
 
+    def test_time_of_the_tangential_law(self):
+        """The guide's table against all that is said of it."""
+        rows = table_with(page("docs/guide/tangential.md"), "| deck | E\\*/Y | `history` | `plastic` |")
+        (low, high), (_, history) = ((min(times), max(times)) for times in ([float(row[k].split()[0]) for row in rows] for k in (3, 2)))
+        self.assertIn(f"`tangential plastic` | {history:.1f}; {low:.1f} to {high:.1f} |", self.PAGE)
+        self.assertIn(f"(E\\*/Y = 1000) take {history:.1f},", self.README)
+        self.assertIn(f"takes {low:.1f} to {high:.1f}.", self.README)
+        self.assertIn(f"takes {high:.1f} times Hertz's time", page("docs/project/roadmap.md"))
+
     def test_solver(self):
         solver = page("docs/evidence/solver-accuracy.md")
         self.assertRegex(solver, r"0\.3 % of finite elements")
