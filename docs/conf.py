@@ -95,8 +95,8 @@ def help_of(mpm, *words):
 
 
 def commands_of(mpm):
-    """Names of all commands: the lines of `mpm --help` behind "Subcommands:" that begin two spaces in."""
-    return re.findall(r"^  (\w+)", help_of(mpm).split("Subcommands:", 1)[1], re.MULTILINE)
+    """Names of all commands: the lines of `mpm --help` behind "Commands" that begin two spaces in."""
+    return re.findall(r"^  (\w+)", help_of(mpm).split("Commands ", 1)[1], re.MULTILINE)
 
 
 def add_options(app, docname, source):

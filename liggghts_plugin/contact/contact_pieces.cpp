@@ -7,6 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "liggghts_plugin/deck/keywords.hpp"
+
 namespace granulaw::plugin {
 
 namespace {
@@ -15,6 +17,7 @@ template <int... ids>
 struct Ids
 {
 };
+// tangential_models, cohesion_models, rolling_models (deck/keywords.hpp)
 using Tangential = Ids<cm::TANGENTIAL_OFF, cm::TANGENTIAL_HISTORY, cm::TANGENTIAL_NO_HISTORY>;
 using Cohesion = Ids<cm::COHESION_OFF, cm::COHESION_SJKR, cm::COHESION_SJKR2,
                      cm::COHESION_EASO_CAPILLARY_VISCOUS, cm::COHESION_WASHINO_CAPILLARY_VISCOUS>;
@@ -83,12 +86,6 @@ const Names& surface_names()
   return names;
 }
 
-template <int... ids>
-std::string join_names(const Names& names, Ids<ids...>)
-{
-  return fmt::format("{}", fmt::join({names.at(ids)...}, ", "));
-}
-
 }  // namespace
 
 template <>
@@ -129,9 +126,8 @@ void each_combination(int normal, const std::function<void(const ModelIds&)>& vi
 
 std::string built_combinations()
 {
-  return fmt::format("tangential {}; cohesion {}; rolling_friction {}; {}",
-                     join_names(tangential_names(), Tangential{}), join_names(cohesion_names(), Cohesion{}),
-                     join_names(rolling_names(), Rolling{}), built_surfaces);
+  return fmt::format("tangential {}; cohesion {}; rolling_friction {}; {}", fmt::join(tangential_models, ", "),
+                     fmt::join(cohesion_models, ", "), fmt::join(rolling_models, ", "), built_surfaces);
 }
 
 std::string describe_pieces(const ModelIds& ids)

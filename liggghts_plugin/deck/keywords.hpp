@@ -65,6 +65,13 @@ inline constexpr std::array surface_keywords{
 inline constexpr std::array<std::string_view, 5> model_kinds{"model", "tangential", "cohesion",
                                                              "rolling_friction", "surface"};
 
+/// Models of LIGGGHTS that stand beside a normal model of ours (contact_pieces.cpp), and the tangential law of model mpm alone.
+inline constexpr std::array<std::string_view, 3> tangential_models{"off", "history", "no_history"};
+inline constexpr std::string_view own_tangential_model = "plastic";
+inline constexpr std::array<std::string_view, 5> cohesion_models{"off", "sjkr", "sjkr2", "easo/capillary/viscous", "washino/capillary/viscous"};
+inline constexpr std::array<std::string_view, 5> rolling_models{"off", "cdt", "epsd", "epsd2", "epsd3"};
+inline constexpr std::array<std::string_view, 2> surface_models{"default", "superquadric"};
+
 /// Words of `fix wall/gran` itself; they stand before the model's keywords.
 inline constexpr std::array<std::string_view, 13> wall_words{"primitive",
                                                              "mesh",

@@ -37,15 +37,16 @@ std::shared_ptr<const LoadedLaw> load_law(LAMMPS_NS::LAMMPS* lmp, const std::str
     }
   broadcast(lmp, message);
   if (!message.empty()) fail(where, message);
-  if (lmp->comm->nprocs > 1) broadcast(lmp, image);
-  if (lmp->comm->me != 0) try {
+  const bool is_shared = lmp->comm->nprocs > 1;
+  if (is_shared) broadcast(lmp, image);
+  if (is_shared) try {  // rank 0, too: the file may have been replaced between its two readings
       loaded->law = read_law_image(image, path);
     } catch (const std::exception& error) {
       message = error.what();
     }
   int failed = message.empty() ? 0 : 1;
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, lmp->world);
-  if (failed) fail(where, "a rank could not take over the law that rank 0 read", path);
+  if (failed) fail(where, "it was replaced while it was read, or a rank lacks memory for it", path);
   return loaded;
 }
 

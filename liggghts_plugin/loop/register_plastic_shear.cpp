@@ -12,7 +12,7 @@ namespace {
 /// In restart files: never change it, never use it twice. LIGGGHTS's own end at 3.
 constexpr int plastic_id = 20;
 
-[[maybe_unused]] const bool registered = (add_tangential<MpmPhysics, PlasticShear>("plastic", plastic_id), true);
+[[maybe_unused]] const bool registered = (add_tangential<MpmPhysics, PlasticShear>(own_tangential_model.data(), plastic_id), true);
 
 }  // namespace
 

@@ -9,7 +9,7 @@
 #include "contact/thornton.hpp"
 #include "law/law.hpp"
 
-// The time step of a particle code: one rule for the plug-in, `mpm plan` and `mpm soften`.
+// The time step of a particle code: one rule for the plug-in, `mpm plan` and `mpm stretch`.
 //
 // The largest step is a twentieth of the period 2 pi sqrt(m*/k) of the stiffest contact at the overlaps that are
 // reached: planned ones before a run, visited ones in it. k is the slope of the steeper branch, further in or

@@ -109,7 +109,7 @@ class Limits(unittest.TestCase):
         (_, force, worst_force), (_, e, worst_e) = (cell.split(", ") for cell in every[2:4])
         self.assertIn(f"| F_max {force}, e {e} (95 % of mixtures); {worst_force}, {worst_e} (largest) |", self.PAGE)
         self.assertIn(f"| {force}, {e} in 95 % of mixtures |", self.README)
-        corrected = re.search(r"`--own-law`[^|]*\|[^|]*?([\d.]+ %)[^|]*?\be\b[^|]*?([\d.]+)", page("docs/evidence/pairs.md"))
+        corrected = re.search(r"`--correct-pairs`[^|]*\|[^|]*?([\d.]+ %)[^|]*?\be\b[^|]*?([\d.]+)", page("docs/evidence/pairs.md"))
         self.assertIn("| F_max {}, e {} | runs of both particles |".format(*corrected.groups()), self.PAGE)
         runs = table_with(page("docs/evidence/particles.md"), "| law | runs | CPU s")
         guided = table_with(page("docs/develop/runs-and-laws.md"), "| law, before and after | runs | CPU s |")

@@ -1,4 +1,4 @@
-"""One rule for the time step (mpm_core/law/contact_step.hpp): what `mpm plan`, `mpm soften` and the plug-in say of one deck is one number."""
+"""One rule for the time step (mpm_core/law/contact_step.hpp): what `mpm plan`, `mpm stretch` and the plug-in say of one deck is one number."""
 import json
 import math
 import pathlib

@@ -311,7 +311,7 @@ def drop_tests(browser, page, mpm, failures):
 
 
 def bed(browser, mpm, launcher, failures):
-    """The bed's numbers are those of `mpm plan` and `mpm soften` for a deck of the same bodies, whose floor LIGGGHTS reads."""
+    """The bed's numbers are those of `mpm plan` and `mpm stretch` for a deck of the same bodies, whose floor LIGGGHTS reads."""
     wax = {"name": "wax", "density": 920, "youngs_modulus": 91e6, "poisson_ratio": 0.3, "yield_stress": 1e6}
     lactose = {"name": "lactose", "density": 1540, "youngs_modulus": 24.1e9, "poisson_ratio": 0.12, "yield_stress": 180e6}
     worst = 0.0
@@ -357,7 +357,7 @@ def bed(browser, mpm, launcher, failures):
         failures.check(found["soften"]["bound_by"] == said["soften"]["bound_by"] and found["beyond_laws"] == said["plan"]["beyond_laws"] and
                        all(mine[k]["needs_table"] == pairs[k]["needs_table"] for k in set(pairs) & set(mine)), f"bed {found}; {said}")
     failures.check(worst <= 1e-9, f"the bed differs from plan and soften by {worst:.2g}")
-    print(f"bed: largest relative difference from mpm plan and mpm soften {worst:.2g}")
+    print(f"bed: largest relative difference from mpm plan and mpm stretch {worst:.2g}")
 
 
 def times(browser):

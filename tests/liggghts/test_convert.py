@@ -460,6 +460,18 @@ class TestQuestions(Convert):
         assert "no contact model to convert" in self.convert(code=1)
 
 
+class TestTangential(Convert):
+    def test_plastic_stays_and_is_offered(self):
+        """A deck that has it keeps it; where one needs it, the command says so."""
+        self.write("in.deck", DECK + REST + RUN)
+        self.convert("--speed", "30")
+        assert "`tangential plastic` suits this deck" in (self.out / "conversion.md").read_text()
+        self.write("in.deck", DECK.replace("tangential history", "tangential plastic").replace("model hertz", "model mpm") + REST + RUN)
+        now, said = self.convert()
+        assert now.count("model mpm tangential plastic") == 2
+        assert not any("plastic" in c["why"] for c in said["changes"])
+
+
 class TestCheck(Convert):
     def test_both_decks_are_compared(self):
         self.write("in.deck", DECK + REST + RUN)

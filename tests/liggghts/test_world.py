@@ -1,4 +1,4 @@
-"""Public decks in small, one folder of world/ for each: what `mpm plan`, `mpm table --deck`, `mpm soften` and the run make of them."""
+"""Public decks in small, one folder of world/ for each: what `mpm plan`, `mpm table --deck`, `mpm stretch` and the run make of them."""
 import json
 import pathlib
 import re

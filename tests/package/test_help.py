@@ -16,7 +16,7 @@ def help_of(*words):
 
 
 def commands():
-    return re.findall(r"^  ([a-z]+) ", help_of().partition("Subcommands:")[2], flags=re.M)
+    return re.findall(r"^  ([a-z]+) ", help_of().partition("Commands ")[2], flags=re.M)
 
 
 def options(*words, ends="--"):

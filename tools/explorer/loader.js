@@ -69,7 +69,7 @@ const granulaw = (() => {
     // Yield stress of drop tests, the object of `mpm calibrate --json`: {data: CSV, relative_sd, material, radius, partner}.
     calibrate: async (request) => (await ready, asked("granulaw_calibrate", request)),
     calibrate_now: (request) => asked("granulaw_calibrate", request),
-    // Requirements of a bed, with the keys of `mpm plan --json` and `mpm soften --json`: a state with bed_height, m.
+    // Requirements of a bed, with the keys of `mpm plan --json` and `mpm stretch --json`: a state with bed_height, m.
     bed: async (request) => (await ready, asked("granulaw_bed", request)),
     bed_now: (request) => asked("granulaw_bed", request),
   };

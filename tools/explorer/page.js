@@ -174,7 +174,7 @@
     const {first, second, partner, radius} = state;
     const words = ["mpm calibrate drops.csv", `--radius ${radius}`, `--density ${first.density}`, `--poisson-ratio ${first.poisson_ratio}`, `--youngs-modulus ${first.youngs_modulus}`,
       ...(first.hardening_modulus > 0 ? [`--hardening-modulus ${first.hardening_modulus}`] : []), "--fit yield_stress", ...(drops.scatter === 1 ? [] : [`--relative-sd ${Number((drops.scatter / 100).toPrecision(6))}`]),
-      ...(partner === "like" ? ["--partner like"] : partner === "thick" ? [`--wall ${own_name()} --materials materials.toml`] : [])];
+      ...(partner === "like" ? ["--partner equal"] : partner === "thick" ? [`--wall ${own_name()} --materials-file materials.toml`] : [])];
     return partner === "sphere" ? "# two spheres that differ are not fitted" : `# ${words.join(" ")}`;
   }
   function add_drops() {
@@ -234,7 +234,7 @@
     }));
   }
 
-  // What mpm plan and mpm soften say of a bed of these bodies: rows of [name, text, class].
+  // What mpm plan and mpm stretch say of a bed of these bodies: rows of [name, text, class].
   function bed_rows(b) {
     const yielding = b.pairs.filter((pair) => pair.needs_table), deepest = top_of(b.pairs.map((pair) => pair.depth)), {soften} = b;
     const onset = Math.min(...b.pairs.map((pair) => pair.onset_speed_m_per_s ?? Infinity));

@@ -206,7 +206,7 @@ COMMANDS = {
     "check": "mpm check law.h5 --impacts 2 --seed 3",
     "plan": "mpm plan in.scene --materials-file m.toml --materials powder glass --json",
     "plan, words": "mpm plan in.scene --materials-file m.toml --materials powder glass",
-    "soften": "mpm soften in.scene --materials-file m.toml --materials powder glass --json",
+    "soften": "mpm stretch in.scene --materials-file m.toml --materials powder glass --json",
     "table, deck": "mpm table m.toml --deck in.scene --materials powder glass -o deck.h5",
     "info, deck": "mpm info deck.h5",
     "refused": "mpm impact m.toml --particle gran --velocity 1",

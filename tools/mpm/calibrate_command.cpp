@@ -157,8 +157,8 @@ void define(Options& command)
 
 extern const Command calibrate_command{
     "calibrate",
-    "Fits Young's modulus, yield stress and hardening to measurements, with intervals and a verdict on the\n"
-    "parameters that the data do not determine (docs/guide/calibrate.md).\n"
+    "Fits Young's modulus, yield stress and hardening to measurements, with intervals. It says which\n"
+    "parameters the data do not determine (docs/guide/calibrate.md).\n"
     "Example: mpm calibrate drops.csv --radius 1e-3 --density 1540 --poisson-ratio 0.25 --youngs-modulus "
     "3.2e9\n"
     "         --fit yield_stress -o material.toml --plot fit.png",

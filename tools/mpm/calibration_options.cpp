@@ -136,12 +136,12 @@ void CalibrationOptions::add_to(Options& command, bool needs_data)
   command
       .add_option(
           "--partner", partner,
-          "of impacts. wall: rigid; like: a sphere of the same material and size, the speed is that of "
-          "approach")
-      ->among({"wall", "like"})
+          "of impacts. wall: rigid; equal: a sphere of the same material and size, the speed is that of "
+          "approach (older word: like)")
+      ->among({"wall", "equal", "like"})
       ->capture_default_str();
   Option materials_file = command.add_option(
-      "--materials", materials, "TOML file that holds the material of the wall, the indenter or the ball");
+      "--materials-file,--materials", materials, "TOML file that holds the material of the wall, the indenter or the ball");
   command.add_option("--indenter", indenter, "name of the indenter's material (default: rigid)")
       ->needs(materials_file);
   command
@@ -221,7 +221,7 @@ Measurement CalibrationOptions::form(const Kind& of, const std::string& source) 
   m.source = source;
   if (of.needs_density && !density) fail("--density", "is missing: impacts depend on it");
   m.radius = *radius;
-  m.partner = partner == "like" ? ImpactPartner::like_sphere : ImpactPartner::wall;
+  m.partner = partner != "wall" ? ImpactPartner::like_sphere : ImpactPartner::wall;
   m.fit_offset = of.has_machine && !offset, m.fit_compliance = of.has_machine && compliance;
   if (of.counterpart == Kind::Counterpart::indenter) {
     if (!indenter_radius) fail("--indenter-radius", "is missing: --kind sphere needs it");

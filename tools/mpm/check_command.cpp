@@ -52,7 +52,7 @@ void check(const CheckRequest& r)
   for (const std::string& name : found.skipped)
     fmt::print(
         "{}: no fresh impacts: its materials' numbers alone do not determine its law; name the file it was "
-        "made from with --materials\n",
+        "made from with --materials-file\n",
         name);
   for (const auto& [name, body] : law.bodies)
     if (body.shape) print_shape(name, *body.shape);
@@ -70,7 +70,7 @@ void define(Options& command)
   command
       .add_option("--impacts", r->impacts, "fresh impacts for each yielding material (default 2; 0: none)")
       ->check(whole_from_to(0, 1000));
-  command.add_option("--materials", r->materials,
+  command.add_option("--materials-file,--materials", r->materials,
                      "materials file that the law was made from: needed for the impacts of layered, shaped, "
                      "rate-dependent and nonlinearly hardening bodies");
   command.add_option("--seed", r->seed, "seed of the velocities (default: a new one each time, printed)");

@@ -89,14 +89,6 @@ void write_law_of(deck::Converted& c, const MaterialsFile& file)
   write_law(made.law, (c.folder / c.conversion.law).string());
 }
 
-/// As liggghts -var takes them.
-deck::Presets presets_of(const DeckOptions& o)
-{
-  deck::Presets presets;
-  for (std::size_t k = 0; k + 1 < o.variables.size(); k += 2) presets.push_back({o.variables[k], {o.variables[k + 1]}});
-  return presets;
-}
-
 deck::Destination choose_folder(const ConvertRequest& r, const deck::Scene& scene)
 {
   fs::path folder = r.folder.empty() ? fs::path(fs::path(r.deck).filename().string() + ".mpm") : fs::path(r.folder);
@@ -108,9 +100,12 @@ deck::Destination choose_folder(const ConvertRequest& r, const deck::Scene& scen
   return deck::open_destination(scene, folder);
 }
 
-/// Runs that last another time than the original's.
-void compare_times(deck::Converted& c, const deck::Scene& now)
+/// Runs that last another time than the original's, and insertions that bring in other numbers.
+void compare_runs(deck::Converted& c, const deck::Scene& now)
 {
+  const double brought = c.planned.scene.count(), brings = now.count();
+  if (std::abs(brings - brought) > 0.01 * brought + 1)
+    c.result.left.push_back(fmt::format("the insertions bring in {:.0f} particles, {:.0f} in the original", brings, brought));
   const std::vector<deck::Run>&before = c.planned.scene.runs, &after = now.runs;
   if (before.size() != after.size()) {
     c.result.left.push_back(fmt::format("the converted deck has {} runs, the original {}", after.size(), before.size()));
@@ -169,7 +164,7 @@ deck::Converted convert(ConvertRequest& r)
 {
   deck::Converted c;
   const MaterialsFile file = read_materials(r.options.materials_file);
-  const deck::Presets presets = presets_of(r.options);
+  const deck::Presets presets = r.options.presets();
   deck::Scene scene = deck::read_scene(r.deck, presets);
   std::vector<std::string> known = names_of(file.materials);
   for (const std::string& name : names_of(file.particles)) known.push_back(name);
@@ -197,7 +192,7 @@ deck::Converted convert(ConvertRequest& r)
     c.result.left.push_back(fmt::format("atom type {} ('{}'): {}", other.type, other.name, other.sentence()));
   for (const std::string& sentence : deck::beyond_laws(c.planned.plan)) c.result.left.push_back(sentence);
   write_law_of(c, file);
-  compare_times(c, now);
+  compare_runs(c, now);
   return c;
 }
 
@@ -237,6 +232,7 @@ void print(const deck::Converted& c)
   fmt::print("wrote {}, {}, {}\n", c.deck.string(), (c.folder / c.conversion.law).string(), (c.folder / c.destination.page).string());
   fmt::print("materials: {}\n", fmt::join(c.conversion.materials, ", "));
   fmt::print("time step: {}\n", printable(deck::time_step_line(c)));
+  if (const std::string line = deck::tangential_line(c); !line.empty()) fmt::print("tangential law: {}\n", printable(line));
   fmt::print("{} lines changed\n", c.result.changes.size());
   for (const std::string& left : c.result.left) fmt::print("not converted: {}\n", printable(left));
   if (c.checked)
@@ -284,7 +280,7 @@ extern const Command convert_command{
     "hooke/stiffness, hooke/hysteresis, ...). The original is not touched. It writes FOLDER/DECK with its\n"
     "includes and the files it reads, FOLDER/law.h5, and FOLDER/conversion.md. The last has each changed line with\n"
     "its reason, and the lines that could not be converted. The particles get the real moduli of the materials file.\n"
-    "The law is stretched as far as the limits of mpm soften allow, so that the time step is near the deck's. If it\n"
+    "The law is stretched as far as the limits of mpm stretch allow, so that the time step is near the deck's. If it\n"
     "must be shorter, all counts of steps grow with it (docs/guide/convert-hertz.md).\n"
     "Exit code 3: a number is needed that the deck does not say; the sentence names the option, with a default\n"
     "from the deck.\n"

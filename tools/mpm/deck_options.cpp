@@ -106,12 +106,16 @@ void DeckOptions::add_to(Options& command, bool own_materials, Option needed)
   for (Option& own : command.from(before)) own.needs(needed);
 }
 
+deck::Presets DeckOptions::presets() const
+{
+  deck::Presets result;
+  for (std::size_t k = 0; k + 1 < variables.size(); k += 2) result.push_back({variables[k], {variables[k + 1]}});
+  return result;
+}
+
 PlannedDeck plan_deck(const std::string& path, const DeckOptions& o)
 {
-  deck::Presets presets;
-  for (std::size_t k = 0; k + 1 < o.variables.size(); k += 2)
-    presets.push_back({o.variables[k], {o.variables[k + 1]}});
-  return plan_scene(deck::read_scene(path, presets), o);
+  return plan_scene(deck::read_scene(path, o.presets()), o);
 }
 
 PlannedDeck plan_scene(deck::Scene scene, const DeckOptions& o)

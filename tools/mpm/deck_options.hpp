@@ -9,7 +9,7 @@
 
 namespace granulaw {
 
-/// The options that `mpm plan`, `mpm soften` and `mpm table --deck` share: the deck's variables, and what the
+/// The options that `mpm plan`, `mpm stretch` and `mpm table --deck` share: the deck's variables, and what the
 /// deck itself does not give.
 struct DeckOptions
 {
@@ -22,6 +22,7 @@ struct DeckOptions
   /// `own_materials`: with --materials-file (mpm table has its own). `needed`: an option without which these
   /// mean nothing.
   void add_to(Options& command, bool own_materials, Option needed = Option());
+  deck::Presets presets() const;
 };
 
 using deck::PlannedDeck;

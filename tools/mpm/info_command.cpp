@@ -83,8 +83,7 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
   if (!body.is_sphere())
     fmt::print(
         "  body                 {}, radius of curvature {:.6g} m, mass {:.4g} rho 4/3 pi R^3: rigid wall and "
-        "like "
-        "pair only\n",
+        "equal bodies only\n",
         body.body, body.pole_radius, body.mass_ratio);
   print_material(m, provenance);
   fmt::print("  range                delta/R = 0 to {:.4g}, {} nodes, onset of yield at {:.4g}\n",

@@ -19,12 +19,12 @@ inline std::vector<std::string> warnings_of(const ChosenPair& c, double velocity
   std::vector<std::string> warnings;
   if (found.needs_axis)
     warnings.push_back(
-        fmt::format("I = rho V^2/Y = {:.3g} is above {:.3g}: the law has no velocity axis, so e and "
+        fmt::format("Johnson's damage number I = rho V^2/Y = {:.3g} is above {:.3g}: the law has no velocity axis, so e and "
                     "force are too high",
                     found.damage_number, found.statement.damage_number_max));
   else if (found.beyond_bound)
     warnings.push_back(fmt::format(
-        "I = rho V^2/Y = {:.3g} is above {:.3g}, up to which the error bound of this {} law holds",
+        "Johnson's damage number I = rho V^2/Y = {:.3g} is above {:.3g}, up to which the error bound of this {} law holds",
         found.damage_number, found.statement.damage_number_max, name_of(found.statement.kind)));
   if (!found.statement.covers_size())
     warnings.push_back(fmt::format(

@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <vector>
 
@@ -32,14 +33,28 @@ using namespace granulaw;
 
 constexpr const char* summary =
     "mpm: contact laws between particles, computed by the material point method.\n"
-    "\n"
-    "All input and output is in SI units: kg/m^3, Pa, m, m/s, N, J, s.\n"
-    "A first session:\n"
-    "  mpm impact materials.toml --particle grain --velocity 1.0        one collision with a rigid wall\n"
+    "SI units: kg/m^3, Pa, m, m/s, N, J, s. A first session:\n"
     "  mpm table materials.toml -o law.h5                               the contact law of every pair\n"
-    "  mpm law law.h5 --pair powder:wall --radius 2e-3 --velocity 1.0   the same collision by the law\n"
-    "  mpm plot law.h5 -o law.png                                       what the law looks like\n"
-    "Each command explains itself: mpm impact --help";
+    "  mpm law law.h5 --pair powder:wall --radius 2e-3 --velocity 1.0   a collision by the law\n"
+    "  mpm impact materials.toml --particle grain --velocity 1.0        the same by the solver\n"
+    "  mpm plot law.h5 -o law.png                                       what the law looks like";
+
+/// The commands by groups, a line each.
+class GroupedHelp final : public CLI::Formatter
+{
+  std::string make_subcommands(const CLI::App* app, CLI::AppFormatMode) const override
+  {
+    std::string text, group;
+    for (const CLI::App* one : app->get_subcommands({})) {
+      if (text.empty()) text = "\nCommands (mpm COMMAND --help explains each):\n";
+      if (one->get_group() != group) text += fmt::format("{}:\n", group = one->get_group());
+      const std::string whole = one->get_description();
+      const auto end = std::min({whole.find(": "), whole.find(". "), whole.find(".\n"), whole.find("; "), whole.find(" (")});
+      text += fmt::format("  {:<10} {}\n", one->get_name(), whole.substr(0, end));
+    }
+    return text;
+  }
+};
 
 /// Error for the caller of the program.
 struct Outcome
@@ -60,7 +75,10 @@ std::vector<std::string> options_of(const CLI::App& app)
 std::vector<std::string> commands_of(const CLI::App& app)
 {
   std::vector<std::string> names;
-  for (const CLI::App* one : app.get_subcommands({})) names.push_back(one->get_name());
+  for (const CLI::App* one : app.get_subcommands({})) {
+    names.push_back(one->get_name());
+    for (const std::string& alias : one->get_aliases()) names.push_back(alias);
+  }
   return names;
 }
 
@@ -68,7 +86,7 @@ std::vector<std::string> commands_of(const CLI::App& app)
 const CLI::App* command_named(const std::string& name, const CLI::App& app)
 {
   for (const CLI::App* one : app.get_subcommands({}))
-    if (one->get_name() == name) return one;
+    if (one->check_name(name)) return one;
   return nullptr;
 }
 
@@ -105,8 +123,10 @@ void add_commands(CLI::App& app)
 {
   app.set_version_flag("--version", fmt::format("mpm {} ({})", version(), git_hash()));
   app.require_subcommand(1);
-  for (const Command* command : commands) {
-    Options options(*app.add_subcommand(command->name, command->summary));
+  for (const auto& [group, command] : commands) {
+    CLI::App* added = app.add_subcommand(command->name, command->summary)->group(group);
+    if (*command->alias) added->alias(command->alias);
+    Options options(*added);
     command->define(options);
   }
 }
@@ -115,7 +135,7 @@ void add_commands(CLI::App& app)
 bool runs_on_ranks(const std::string& word)
 {
   return std::any_of(commands.begin(), commands.end(),
-                     [&](const Command* c) { return c->on_ranks && c->name == word; });
+                     [&](const CommandEntry& c) { return c.command->on_ranks && c.command->name == word; });
 }
 
 /// "Could not convert: --velocity = fast" in the tool's own words.
@@ -163,6 +183,8 @@ void parse(CLI::App& app, const std::vector<std::string>& words)
 Outcome run(int argc, char** argv)
 {
   CLI::App app{summary, "mpm"};
+  app.formatter(std::make_shared<GroupedHelp>());
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   add_commands(app);
   try {
     if (const std::string sentence = empty_word(argc, argv); !sentence.empty()) return {2, sentence};

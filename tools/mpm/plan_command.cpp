@@ -209,7 +209,7 @@ void print_law_errors(const std::vector<deck::PairPlan>& pairs)
                printable(p.meeting.name_b), p.meeting.wall ? " (deformable wall)" : "",
                ErrorBound{stated.force, stated.restitution}.text(),
                stated.restitution > worth_runs && !p.meeting.wall
-                   ? "; mpm table --own-law corrects it by impacts"
+                   ? "; mpm table --correct-pairs corrects it by impacts"
                    : "");
   }
 }

@@ -264,7 +264,7 @@ void add_range_options(Options& command, LawFileRequest& file)
       ->capture_default_str();
   command
       .add_option("--damage-number,--inertia", file.damage_number,
-                  "largest damage number I = rho V^2/Y, up to 0.09; 0: a quasi-static law")
+                  "largest damage number I = rho V^2/Y (Johnson's; it has nothing to do with breakage), up to 0.09;\n0: a quasi-static law")
       ->check(from_to(0, fastest_law))
       ->capture_default_str();
   command
@@ -282,7 +282,7 @@ void add_range_options(Options& command, LawFileRequest& file)
                    "also laws for deformable walls: of either material of a pair, and of the particle's "
                    "material (default:\n"
                    "yes; --deck: if it has such walls)");
-  command.add_flag("--own-law", file.own_laws,
+  command.add_flag("--correct-pairs,--own-law", file.own_laws,
                    "correct composed laws by impacts of the two bodies, where the pair rule is worse than\n"
                    "--tolerance. Without the atlas: two-body laws, at equal radii");
 }

@@ -7,7 +7,7 @@ _mpm()
   if [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$(sed -n 's/^  \(-[^ {]*\).*/\1/p' <<< "$help" | tr , '\n')" -- "$word")
   elif ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W "$(sed -n '/^Subcommands:/,$ s/^  \([a-z][a-z]*\) .*/\1/p' <<< "$help")" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "$(sed -n '/^Commands /,$ s/^  \([a-z][a-z]*\) .*/\1/p' <<< "$help")" -- "$word")
   fi
 }
 complete -o default -F _mpm mpm

@@ -20,7 +20,7 @@ QUESTIONS = (
      "guide/when-it-stops", "Make a deeper law"),
     ("How long will the table take?", ("how long will the table take", "how long table", "table long"), "guide/when-it-stops", "below a second from the atlas"),
     ("May I lower Young's modulus?", ("may I lower Young's modulus", "lower modulus", "soften"), "guide/plan", "A softer sphere yields later"),
-    ("Which pairs are exact?", ("which pairs are exact", "exact pairs", "pairs"), "guide/pairs", "like particles of like sizes; any particle on the rigid wall"),
+    ("Which pairs are exact?", ("which pairs are exact", "exact pairs", "pairs"), "guide/pairs", "particles of one material and equal size; any particle on the rigid wall"),
     ("How do I cite?", ("how do I cite", "cite", "citation", "bibtex"), "guide/cite", "CITATION.cff"),
     ("Which licence?", ("licence", "license", "GPL"), "guide/cite", "GPL-2.0-or-later"),
     ("Where do I report a bug?", ("report a bug", "bug", "where do I report a bug"), "guide/cite", "Send, as files"),

@@ -21,23 +21,11 @@ bool contains(const List& list, const std::string& word)
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-/// Models that mpm can be composed with (docs/reference/pair_gran_model_mpm.md).
-constexpr std::array<std::string_view, 3> tangential{"off", "history", "no_history"};
-constexpr std::array<std::string_view, 5> rolling{"off", "cdt", "epsd", "epsd2", "epsd3"};
-constexpr std::array<std::string_view, 5> cohesion{"off", "sjkr", "sjkr2", "washino/capillary/viscous",
-                                                   "easo/capillary/viscous"};
-constexpr std::array<std::string_view, 2> surface{"default", "superquadric"};
-
-/// Words of LIGGGHTS's models, each followed by on or off.
-constexpr std::array<std::string_view, 20> switches{
-    "tangential_damping", "limitForce", "absolute_damping", "viscous", "ktToKnUser", "heating_normal_hertz",
-    "heating_normal_hooke", "heating_tracking", "computeElasticPotential", "computeDissipatedEnergy",
-    "disableNormalWhenBonded", "disableTangentialWhenBonded", "fixKc", "tangential_reduce",
-    "limitLiquidContent", "modifyLbVolume", "torsionTorque", "torsion", "heating_tangential_history",
-    "heating_tangential_no_history"};
-constexpr std::array<std::string_view, 6> kept_switches{
-    "tangential_damping", "limitForce",    "tangential_reduce",
-    "torsionTorque",      "heating_tracking", "heating_tangential_history"};
+/// Words of LIGGGHTS's models that model mpm does not take, each followed by on or off.
+constexpr std::array<std::string_view, 14> dropped_switches{
+    "absolute_damping", "viscous", "ktToKnUser", "heating_normal_hertz", "heating_normal_hooke", "heating_tangential_no_history", "computeElasticPotential",
+    "computeDissipatedEnergy", "disableNormalWhenBonded", "disableTangentialWhenBonded", "fixKc", "limitLiquidContent",
+    "modifyLbVolume", "torsion"};
 /// Words of model mpm that the conversion says anew.
 constexpr std::array<std::string_view, 4> own_words{"law", "materials", "stretch", "stats"};
 
@@ -59,7 +47,7 @@ class Reader
     const std::string value = at_ + 1 < words_.size() ? words_[at_ + 1] : "";
     if (is_wall_ && contains(plugin::wall_words, key)) return keep_wall_word(key, value);
     if (contains(plugin::model_kinds, key)) return choose(key, value);
-    if (contains(switches, key)) return switch_word(key, value);
+    if (contains(dropped_switches, key)) return drop_switch(key, value);
     if (contains(own_words, key)) return skip_own();
     keep(1);
   }
@@ -99,18 +87,18 @@ class Reader
       result_.words.insert(result_.words.end(), {"model", "mpm"});
       at_ += 2;
     } else if (key == "tangential")
-      choose_among(key, value, tangential, "history");
+      value == plugin::own_tangential_model ? keep(2) : choose_among(key, value, plugin::tangential_models, "history");
     else if (key == "rolling_friction")
-      choose_among(key, value, rolling, nullptr);
+      choose_among(key, value, plugin::rolling_models, nullptr);
     else if (key == "cohesion")
-      choose_among(key, value, cohesion, nullptr);
+      choose_among(key, value, plugin::cohesion_models, nullptr);
     else
-      choose_among(key, value, surface, nullptr);
+      choose_among(key, value, plugin::surface_models, nullptr);
   }
 
-  void switch_word(const std::string& key, const std::string& value)
+  void drop_switch(const std::string& key, const std::string& value)
   {
-    if (contains(kept_switches, key) || (key == "computeDissipatedEnergy" && !is_wall_)) return keep(2);
+    if (key == "computeDissipatedEnergy" && !is_wall_) return keep(2);
     const bool is_off = value == "off";
     drop(key, value,
          key == "computeDissipatedEnergy"   ? "energies of walls are counted with the pair style's"

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "deck/tangential_need.hpp"
+#include "liggghts_plugin/deck/keywords.hpp"
 
 namespace granulaw::deck {
 
@@ -46,6 +49,14 @@ std::string time_step_line(const Converted& c)
   return text;
 }
 
+std::string tangential_line(const Converted& c)
+{
+  for (const DeckCommand& command : c.planned.scene.commands)
+    if (std::find(command.words.begin(), command.words.end(), plugin::own_tangential_model) != command.words.end()) return "";
+  const TangentialNeed need = tangential_need(c.planned.scene, c.planned.plan);
+  return need.pair ? fmt::format("`tangential plastic` suits this deck: {}. It costs time (docs/guide/tangential.md)", need.reason) : "";
+}
+
 std::string run_line(const Converted& c)
 {
   std::string line = fmt::format("cd {} && liggghts-mpm", c.folder.string());
@@ -67,6 +78,7 @@ std::string page(const Converted& c, const std::string& command)
   }
   text += fmt::format("| {} | {} |\n", c.conversion.law, c.law_pairs.empty() ? "none: no particle has a law" : fmt::format("{}", fmt::join(c.law_pairs, ", ")));
   text += fmt::format("| time step | {} |\n", time_step_line(c));
+  if (const std::string line = tangential_line(c); !line.empty()) text += fmt::format("| tangential law | {} |\n", line);
   for (const PairPlan& p : d.plan.pairs)
     text += fmt::format("| {} {}:{} | up to {:.3g} m/s, overlap {:.3g} R*, I {:.3g}; time step {} |\n", types_text(p.meeting), p.meeting.name_a,
                         p.meeting.name_b, p.speed, p.overlap * c.conversion.stretch, p.damage_number,

@@ -28,6 +28,8 @@ struct Converted
 
 std::vector<std::string> check_lines(const Checked& checked);
 std::string time_step_line(const Converted& converted);
+/// Advice where contacts yield that stick; empty: none.
+std::string tangential_line(const Converted& converted);
 /// The command that runs it.
 std::string run_line(const Converted& converted);
 /// conversion.md. `command`: the words that made it.

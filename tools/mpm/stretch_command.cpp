@@ -1,4 +1,4 @@
-// mpm soften: the largest stretch of the law that a deck bears.
+// mpm stretch: the largest stretch of the law that a deck bears.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace granulaw {
 
-namespace of_soften {
+namespace of_stretch {
 
 struct SoftenRequest
 {
@@ -159,14 +159,14 @@ void define(Options& command)
   command.callback([r] { soften(*r); });
 }
 
-}  // namespace of_soften
+}  // namespace of_stretch
 
-extern const Command soften_command{
-    "soften",
+extern const Command stretch_command{
+    "stretch",
     "The largest stretch s of a deck's contact law F(delta/s)/s within limits: the time step grows by s, "
     "every\n"
     "binary impact keeps its e (docs/guide/plan.md). Prints the lines to paste.\n"
-    "Example: mpm soften in.hopper --var model mpm --var scene out/scene --materials-file materials.toml",
-    of_soften::define};
+    "Example: mpm stretch in.hopper --var model mpm --var scene out/scene --materials-file materials.toml",
+    of_stretch::define, false, "soften"};
 
 }  // namespace granulaw
