@@ -44,10 +44,12 @@ class BodyAtContact
 
   struct Share
   {
-    double curvature, residual, recovered;  // kappa; overlaps over a
-    double log_pressure;                    // of the body itself, under the common shape
+    double curvature, residual, recovered, returned;  // kappa; overlaps over a; work given back over F a
+    double log_pressure;                              // of the body itself, under the common shape
     double log_yield_overlap;
     bool known;
+
+    void give_back(double part) { recovered *= part, returned *= part; }
   };
 
   Share at(double pressure, double flatness) const
@@ -80,6 +82,8 @@ class BodyAtContact
     share.residual = overlap(&PairBody::State::residual);
     share.recovered = overlap(&PairBody::State::recovered) + change(PressureShape::displacement) -
                       body_.finite_body() * M_PI / e_star * contact_ * (transmitted - own);
+    share.returned = overlap(&PairBody::State::returned) + change(PressureShape::work) -
+                     0.5 * body_.finite_body() * M_PI / e_star * contact_ * (transmitted - own);
     share.log_pressure = std::log(transmitted);
     share.log_yield_overlap = mixed(&PairBody::State::log_yield_overlap);
     share.known = place <= 1 && a.known && b.known;
@@ -92,7 +96,7 @@ class BodyAtContact
   {
     const PairBody::State& least = states_.front();
     const double part = pressure / least.pressure;
-    return {part * std::exp(first_), 0,          part * least.recovered, std::log(pressure),
+    return {part * std::exp(first_), 0,          part * least.recovered, part * least.returned, std::log(pressure),
             least.log_yield_overlap, least.known};
   }
 
@@ -103,7 +107,7 @@ class BodyAtContact
   /// d ln p/d ln kappa, at least: two bodies in full plasticity, whose hardness no longer depends on kappa,
   /// share the curvature somehow; this keeps the solution from jumping. What is transmitted is their own
   /// pressure.
-  static constexpr double least_rise = 0.1;
+  static constexpr double least_rise = 0.05;
 
   const PairBody& body_;
   double contact_, first_;
@@ -151,24 +155,24 @@ ComposedState ComposedPair::at(double a) const
   const double pressure =
       std::exp((s.curvature * s.log_pressure + h.curvature * h.log_pressure) / (s.curvature + h.curvature));
   state.force = M_PI * a * a * pressure;
+  // Recovery goes as the pressure that both transmit: with least_rise the matched one may exceed it.
+  for (BodyAtContact::Share* share : {&s, &h}) share->give_back(pressure / std::exp(share->log_pressure));
   state.overlap = a * (s.residual + s.recovered + h.residual + h.recovered);
-  // A plastic body that its partner indents deeper than a flat would is sloped under the pressure, and
-  // recovers less: beyond an overlap of exp(fully) times that at first yield.
-  const auto sloped = [&](const BodyAtContact::Share& share, double radius) {
-    constexpr double measured = 0.26;  // without it e of unlike radii and stiff partners is up to 0.015 high
-    constexpr double fully = 0.1;
-    const double part = std::clamp(share.log_yield_overlap / fully, 0.0, 1.0);
-    return share.recovered * (1 - part * measured * flatness * (share.curvature - a / radius));
+  const double residual = s.residual + h.residual, recovered = s.recovered + h.recovered;
+  // A surface that its partner hollows out is sloped under the pressure and recovers less, its partner's more.
+  const auto slope = [&](BodyAtContact::Share& share, double radius) {
+    constexpr double measured = 0.26;  // docs/develop/pairs.md
+    share.give_back(1 - measured * flatness * (share.curvature - a / radius));
   };
-  state.recovered = a * (sloped(s, radius_) + sloped(h, partner_radius_));
+  slope(s, radius_), slope(h, partner_radius_);
+  state.recovered = a * (s.recovered + h.recovered);
+  state.unloading_work = (s.returned + h.returned) / (s.recovered + h.recovered);
   // Both unload as the body whose dent it is; elastic ones by what each recovers.
   constexpr double elastic = 1e-6;  // residual over recovered overlap from which on the dent counts
-  const double residual = s.residual + h.residual, recovered = s.recovered + h.recovered;
-  const double share = (s.residual + elastic * s.recovered) / (residual + elastic * recovered);
-  const auto of_s = first_.unloading(s.curvature, a / radius_, residual / recovered),
-             of_h = second_.unloading(h.curvature, a / partner_radius_, residual / recovered);
-  state.unloading_work = share * of_s.work + (1 - share) * of_h.work;
-  state.hertz_share = share * of_s.hertz_share + (1 - share) * of_h.hertz_share;
+  const double share = (s.residual + elastic * s.recovered) / (residual + elastic * (s.recovered + h.recovered));
+  state.hertz_share =
+      share * first_.hertz_share(s.curvature, a / radius_, residual / recovered) +
+      (1 - share) * second_.hertz_share(h.curvature, a / partner_radius_, residual / recovered);
   state.log_yield_overlap = std::max(s.log_yield_overlap, h.log_yield_overlap);
   state.known = s.known && h.known;
   return state;
@@ -405,22 +409,19 @@ TwoBodyLaw elastic_law(const PairBody& yielding, const PairBody& partner, double
   return result;
 }
 
-/// Damage number up to which impacts of two bodies have shown that a composed law keeps its error. Of spheres
-/// v^2 = 0.003, v of the velocity axis. The inertia of the partner is not modelled, nor the waves that leave into a
-/// wall while the force rises: its own damage number, by its fraction of the approach, measures both: 0.003, too. A
-/// stiff partner's stays small at any speed.
-double measured_damage_number(const LawMaterial& yielding, const LawMaterial& partner, double radius_ratio,
-                              double speed_ratio)
+}  // namespace
+
+double composed_damage_number(const UnlikePair& pair)
 {
   constexpr double measured = 0.003;
-  const double part = PairMapping::deformable_partner(yielding.e_star(), partner.e_star()).sqrt_lambda - 1;  // over the yielding body's
+  const LawMaterial &yielding = pair.yielding, &partner = pair.partner;
+  const double part = pair.mapping().sqrt_lambda - 1;  // over the yielding body's
   const double of_partner = part * part * partner.density / yielding.density;
-  if (std::isinf(radius_ratio)) return measured / of_partner;
-  const bool yielding_is_wall = radius_ratio == 0;
-  return measured / std::max(yielding_is_wall ? 1.0 : speed_ratio * speed_ratio, of_partner);
+  if (std::isinf(pair.radius_ratio)) return measured / of_partner;
+  const bool yielding_is_wall = pair.radius_ratio == 0;
+  const double of_axis = yielding_is_wall ? 1.0 : std::pow(pair.axis_speed_ratio(), 2);
+  return measured / std::max(of_axis, of_partner);
 }
-
-}  // namespace
 
 ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const PairBody& partner,
                             double radius_ratio, const LawRange& range)
@@ -437,8 +438,8 @@ ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const 
   const double widest = larger(std::sqrt(std::clamp(1.5 * onset, 0.005, 0.04)), samples.front().contact);
   const ElasticCorrection elastic = elastic_correction(yielding, partner, radius_ratio, rule, widest, 2);
   const MaterialRatios ratios = yielding.ratios();
-  const double speed_ratio =
-      UnlikePair{yielding.material(), partner.material(), radius_ratio}.axis_speed_ratio();
+  const UnlikePair unlike{yielding.material(), partner.material(), radius_ratio};
+  const double speed_ratio = unlike.axis_speed_ratio();
   ComposedShape composed{
       yielding.material(),
       radius_ratio,
@@ -446,7 +447,7 @@ ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const 
       body_numbers(ratios),
       end,
       error_of(yielding, partner),
-      measured_damage_number(yielding.material(), partner.material(), radius_ratio, speed_ratio),
+      composed_damage_number(unlike),
       speed_ratio};
   if (range.fastest > 0) {
     const LawShape own = yielding.own_shape(atlas);

@@ -7,6 +7,7 @@
 #include "atlas/body_numbers.hpp"
 #include "atlas/law_shape.hpp"
 #include "atlas/pair_body.hpp"
+#include "atlas/unlike_pair.hpp"
 #include "law/law.hpp"
 
 namespace granulaw {
@@ -35,6 +36,7 @@ struct ComposedState
 ///     surface curves otherwise overlap = that of the equivalent sphere + pi a/E* [displacement(common) p -
 ///     displacement(own) p_twin]
 ///               - k pi a^2 (p - p_twin)/(E* R)                               the finite sphere's
+/// The work that each gives back changes as the overlap does, with PressureShape::work.
 /// The common shape follows from the residual over the recovered overlaps of both. An elastic body yields
 /// nothing: the second line then says what curvature a flatter pressure gives it. Measured against two-body
 /// impacts: docs/theory/pairs.md.
@@ -66,6 +68,12 @@ struct ComposedError
 /// Fitted to the 95th percentiles of two-body impacts against stiffer, like and softer partners
 /// (docs/theory/pairs.md). `e_star_ratio`: the partner's E* over the yielding body's.
 ComposedError composed_error(double e_star_ratio);
+
+/// Damage number up to which impacts of two bodies have shown that a composed law keeps its error. Of spheres
+/// v^2 = 0.003, v of the velocity axis. The inertia of the partner is not modelled, nor the waves that leave into a
+/// wall while the force rises: its own damage number, by its fraction of the approach, measures both: 0.003, too. A
+/// stiff partner's stays small at any speed.
+double composed_damage_number(const UnlikePair& pair);
 
 /// sqrt(I) up to which speed changes nothing: an impact shows the rate-independent law.
 inline constexpr double slow_speed = 0.02;

@@ -34,6 +34,14 @@ double log_overlap_of(double node, double end)
 /// Curvature of a deformable wall, which has no finite body, in place of alpha = 0.
 constexpr double flat = 1e-6;
 
+/// Contact over radius of the equivalent sphere: a surface that its partner hollows out counts as wider. The square is
+/// measured (docs/develop/pairs.md); a body on a flat or its like, and one that its partner wraps, is its own.
+double equivalent_contact(double curvature, double contact)
+{
+  const double hollow = std::max(0.0, curvature - contact);
+  return contact + hollow * hollow;
+}
+
 /// Between the values at 0 and 1.
 double between(double first, double last, double share)
 {
@@ -51,6 +59,11 @@ double PressureShape::flatness_of(double residual_over_recovered)
 double PressureShape::displacement(double flatness)
 {
   return between(0.75, 2 / M_PI, flatness);
+}
+
+double PressureShape::work(double flatness)
+{
+  return between(0.3, 8 / (3 * M_PI * M_PI), flatness);
 }
 
 double PressureShape::sag(double flatness)
@@ -162,10 +175,11 @@ double PairBody::elastic_overlap(double contact) const
 PairBody::State PairBody::elastic_at(double curvature, double contact) const
 {
   const double alpha = std::max(contact, flat), x = elastic_overlap(alpha), share = curvature / alpha;
-  const double force = 4.0 / 3.0 * std::pow(x, 1.5) * elastic_.force_ratio(std::pow(x, 0.25));
+  const double s = std::pow(x, 0.25), force = 4.0 / 3.0 * std::pow(x, 1.5) * elastic_.force_ratio(s);
   State state;
   state.pressure = material_.e_star() * share * force / (M_PI * alpha * alpha);
   state.recovered = share * x / alpha;
+  state.returned = state.recovered * elastic_.unloading(s).work();
   state.log_yield_overlap = first_log_overlap;
   state.known = x <= Atlas::depth;
   return state;
@@ -174,11 +188,10 @@ PairBody::State PairBody::elastic_at(double curvature, double contact) const
 PairBody::Mixed PairBody::twin_at(double curvature, double contact) const
 {
   const double own = std::log(material_.e_star() / material_.yield_stress);
-  const double wanted =
-      contact > 0 ? own + std::log(curvature / contact) : std::numeric_limits<double>::infinity();
+  const double wanted = own + std::log(curvature / equivalent_contact(curvature, contact));
   const double told = std::clamp(wanted, log_stiffnesses_.front(), log_stiffnesses_.back());
   const std::vector<double> weights = interpolation_weights(log_stiffnesses_, told);
-  Mixed twin{std::exp(told - own), 0, {}, told != wanted};
+  Mixed twin{std::exp(told - own), 0, {}, curvature / std::exp(told - own), told != wanted};
   while (twin.first + twin.weights.size() < weights.size() && weights[twin.first] == 0) ++twin.first;
   std::copy_n(weights.begin() + static_cast<std::ptrdiff_t>(twin.first), twin.weights.size(),
               twin.weights.begin());
@@ -214,10 +227,7 @@ PairBody::State PairBody::at(double curvature, double contact) const
 {
   if (!yields()) return elastic_at(curvature, contact);
   const Mixed twin = twin_at(curvature, contact);
-  // Equivalent sphere beyond the atlas: the nearest one within it, at the same kappa; the overlap is
-  // corrected for the finite size of that sphere.
-  const double alpha = twin.is_clipped ? curvature / twin.share : contact;
-  const double node = place(twin, &Twin::log_contact, std::log(alpha));
+  const double alpha = twin.contact, node = place(twin, &Twin::log_contact, std::log(alpha));
   double log_end = 0;
   for (std::size_t k = 0; k < twin.weights.size(); ++k)
     log_end += twin.weights[k] * twins_[twin.first + k].log_end;
@@ -233,22 +243,20 @@ PairBody::State PairBody::at(double curvature, double contact) const
   const double overlap = twin.share * std::exp(value(twin, &Twin::log_overlap, node)) / alpha;
   const double kept = std::exp(-std::max(0.0, value(twin, &Twin::log_lost, node)));
   state.residual = overlap * (1 - kept);
-  state.recovered =
-      overlap * kept - finite_body_ * M_PI * state.pressure / material_.e_star() * (contact - alpha);
+  state.recovered = overlap * kept;
+  state.returned = state.recovered * value(twin, &Twin::unloading_work, node);
+  // the finite sphere has alpha, its equivalent one alpha'
+  const double less = finite_body_ * M_PI * state.pressure / material_.e_star() * (contact - alpha);
+  state.recovered -= less, state.returned -= 0.5 * less;
   state.flatness = PressureShape::flatness_of(state.residual / state.recovered);
   return state;
 }
 
-PairBody::Unloading PairBody::unloading(double curvature, double contact,
-                                        double residual_over_recovered) const
+double PairBody::hertz_share(double curvature, double contact, double residual_over_recovered) const
 {
-  if (!yields()) {
-    const UnloadingShape shape = elastic_.unloading(std::pow(elastic_overlap(std::max(contact, flat)), 0.25));
-    return {shape.work(), shape.hertz_share};
-  }
+  if (!yields()) return elastic_.unloading(std::pow(elastic_overlap(std::max(contact, flat)), 0.25)).hertz_share;
   const Mixed twin = twin_at(curvature, contact);
-  const double node = place(twin, &Twin::log_lost, std::log1p(residual_over_recovered));
-  return {value(twin, &Twin::unloading_work, node), value(twin, &Twin::hertz_share, node)};
+  return value(twin, &Twin::hertz_share, place(twin, &Twin::log_lost, std::log1p(residual_over_recovered)));
 }
 
 }  // namespace granulaw

@@ -21,6 +21,8 @@ struct PressureShape
 
   /// Displacement of the middle, over pi p a/E*: 3/4 to 2/pi.
   static double displacement(double flatness);
+  /// Work given back, over F pi p a/E*: 0.3 to 8/(3 pi^2).
+  static double work(double flatness);
   /// Height of the edge above the middle, over pi p a/E*: 3/8 to 2/pi - 4/pi^2.
   static double sag(double flatness);
   /// Mean pressure at which material under this shape yields as much as under Hertz's: 1 to 1.25. At first
@@ -34,9 +36,13 @@ struct PressureShape
 /// A partner shows a sphere of radius R a surface that is not flat. Only the curvature 1/r between the two
 /// counts for what happens near the contact, of radius a: kappa = a/r; and alpha = a/R for the sphere as a
 /// whole. A sphere on a rigid flat has kappa = alpha. Strains go as kappa, the solution depends on kappa E*/Y
-/// and alpha: so the sphere is as its equivalent sphere on a rigid flat, of the same Y, nu, H and alpha and
-/// of the stiffness E* kappa/alpha: with the same pressure, and overlaps kappa/alpha times the equivalent
+/// and alpha: so the sphere is as its equivalent sphere on a rigid flat, of the same Y, nu, H/E, of alpha' = a/R' and of
+/// the stiffness E* kappa/alpha': with the same pressure, and overlaps kappa/alpha' times the equivalent
 /// sphere's. The atlas holds the equivalent spheres.
+///
+/// alpha' is alpha, but for a surface that its partner hollows out (kappa > alpha). Yielding material flows out of a
+/// hollow more easily than from under a flat, as it does from a contact that is wide against its sphere:
+/// alpha' = alpha + (kappa - alpha)^2. A body on a flat or its like, and one that its partner wraps, has its own alpha.
 class PairBody
 {
  public:
@@ -53,6 +59,7 @@ class PairBody
     double pressure = 0;           ///< Pa, mean
     double residual = 0;           ///< residual overlap over a
     double recovered = 0;          ///< recovered overlap over a
+    double returned = 0;           ///< work given back over F a
     double flatness = 0;           ///< of the pressure
     double log_yield_overlap = 0;  ///< ln(overlap/overlap at first yield); elastic: below 0
     bool known = true;             ///< within the range of the atlas, and of the own law
@@ -60,15 +67,9 @@ class PairBody
   /// `curvature`: kappa > 0; `contact`: alpha, 0 for a deformable wall.
   State at(double curvature, double contact) const;
 
-  /// Unloading of the equivalent sphere whose residual overlap is this over the recovered one: dents of one
-  /// shape are
-  /// reloaded with one shape of the pressure.
-  struct Unloading
-  {
-    double work = 0.4;       ///< given back, over F times the recovered overlap
-    double hertz_share = 1;  ///< of the unloading
-  };
-  Unloading unloading(double curvature, double contact, double residual_over_recovered) const;
+  /// Hertz's share of the unloading of the equivalent sphere whose residual overlap is this over the recovered one:
+  /// dents of one shape are reloaded with one shape of the pressure.
+  double hertz_share(double curvature, double contact, double residual_over_recovered) const;
 
   /// The same sphere, if it never yielded.
   PairBody elastic() const;
@@ -96,6 +97,7 @@ class PairBody
     double share;       // of its stiffness in the body's own
     std::size_t first;  // of the kept ones between which it lies
     std::array<double, 4> weights;
+    double contact;   // alpha'
     bool is_clipped;  // nearest to one that the atlas does not know
   };
   void make_twins(const Atlas& atlas);

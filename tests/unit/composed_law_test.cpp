@@ -83,6 +83,27 @@ TEST(ComposedLaw, IsTheBodysOwnAgainstItsLikeAndTheRigidWall)
   }
 }
 
+/// Shot on a large body, media on ore: the ball hollows the yielding body out. F_max and e of impacts by the solver
+/// (mpm impact --against, 24 cells, four grids), E* .85 GPa, Y 1 MPa, 1000 kg/m3, radii 4 and 1 mm.
+TEST(ComposedLaw, OfASmallHardPartnerThatHollowsItOut)
+{
+  const LawMaterial s = material("s", 0.85e9, 1e6, 0.3, 1000), h = material("h", 0.85e9, never, 0.3, 1000);
+  const UnlikePair pair{s, h, 0.25};
+  const TwoBodyLaw own = composed(s, h, pair.radius_ratio, 0.1);
+  const PairLaw law{{&own.law.curve, pair.mapping(), radiation(s, 4e-3, h, 1e-3)}, &own.law};
+  struct Impact
+  {
+    double velocity, force_max, restitution;
+  };
+  for (const Impact& i : {Impact{1, 0.26861, 0.33846}, Impact{3.07, 0.81002, 0.23176}}) {
+    const double radius = 4e-3, mass = s.density * std::pow(radius, 3);
+    const Replay replay = replay_collision(law, radius * pair.r_eff(), mass * pair.m_eff(), i.velocity);
+    const ErrorBound stated = bound_of(own.law.certificate);
+    EXPECT_NEAR(replay.force_max / i.force_max, 1, stated.force) << i.velocity;
+    EXPECT_NEAR(replay.restitution, i.restitution, stated.restitution_at(i.restitution)) << i.velocity;
+  }
+}
+
 TEST(ComposedLaw, OfElasticBodiesIsHertzWithEachFiniteSphere)
 {
   const LawMaterial a = material("a", 1, never), b = material("b", 3, never);
@@ -248,10 +269,11 @@ TEST(ComposedLaw, TwinsHaveTheBodysHardeningOverItsModulus)
   stiffer.hardening_modulus = 0.03 * stiffer.youngs_modulus;
   // twice the curvature on a sphere of E* as the flat's on one of 2 E*: same pressure, twice the overlap
   const PairBody body(atlas(), m), twin(atlas(), stiffer);
-  for (const double contact : {0.05, 0.1, 0.2}) {
-    const PairBody::State a = body.at(2 * contact, contact), b = twin.at(contact, contact);
+  for (const double flat : {0.05, 0.1, 0.2}) {
+    const double hollow = 0.5 * (1 - std::sqrt(1 - 4 * flat)), contact = 2 * flat - hollow;  // its alpha' is the flat's
+    const PairBody::State a = body.at(2 * flat, contact), b = twin.at(flat, flat);
     EXPECT_NEAR(a.pressure / b.pressure, 1, 0.004);  // the atlas between its stiffnesses
-    EXPECT_NEAR((a.residual + a.recovered) / (b.residual + b.recovered), 2, 0.02);
+    EXPECT_NEAR(a.residual / b.residual, 2, 0.02);
   }
 }
 
