@@ -169,7 +169,7 @@ class Curve
   /// True if a contact at x follows the reversal at x_max; else it loads, or never yielded. Of no number:
   /// true, so that its force is none.
   bool unloads(double x, double x_max) const { return !(x >= x_max) && !(x_max <= yields_from_); }
-  Reversal reversal(double x_max, double latched = 0) const;
+  Reversal reversal(double x_max, double latched = 0) const { return reversal(x_max, top(x_max, latched)); }
   /// Source of the shape of a reversal at x_max beyond the onset: force and work of loading, columns of
   /// CurveTable.
   struct Top
@@ -187,6 +187,7 @@ class Curve
     }
     return other_top(x_max, latched);
   }
+  static Reversal reversal(double x_max, const Top& top);
 
   /// Work of loading to x; what complete unloading from there does not return. `lost` never falls.
   double work(double x, double latched = 0) const;
@@ -260,9 +261,8 @@ class Curve
   std::optional<AxisTable> axis_table_;
 };
 
-inline Reversal Curve::reversal(double x_max, double latched) const
+inline Reversal Curve::reversal(double x_max, const Top& t)
 {
-  const Top t = top(x_max, latched);
   const double inverse = 1.0 / (t.force * x_max * t.span), mean = t.kept * t.work * inverse;
   const double n = UnloadingShape::exponent_of(mean, t.share), double_n = 2.0 * n;
   if (n < UnloadingShape::least_exponent || n > UnloadingShape::largest_exponent(t.share)) [[unlikely]]

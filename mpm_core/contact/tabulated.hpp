@@ -105,11 +105,15 @@ struct Tabulated
   {
     return force_scale * r_eff * r_eff * curve->force(delta * (per_lambda / r_eff), impact_overlap);
   }
-  double grow(double r_eff, double from, double to, double impact_overlap, double*) const
+  double grow(double r_eff, double from, double to, double impact_overlap, double* kept) const
   {
-    const double per_length = per_lambda / r_eff;
-    return force_scale * r_eff * r_eff * (r_eff * lambda) *
-           (curve->lost(to * per_length, impact_overlap) - curve->lost(from * per_length, impact_overlap));
+    const double per_length = per_lambda / r_eff, before = from * per_length, after = to * per_length;
+    if (!curve->unloads(0.0, after)) return 0.0;
+    const double spent = before > 0.0 && kept[0] == before ? curve->work(before, impact_overlap) - kept_reversal(kept).work()
+                                                           : curve->lost(before, impact_overlap);
+    const Curve::Top top = curve->top(after, impact_overlap);
+    keep(Curve::reversal(after, top), kept);
+    return force_scale * r_eff * r_eff * (r_eff * lambda) * (top.work * (1.0 - top.kept) - spent);
   }
   double contact_radius(double r_eff, double delta, double delta_max, double impact_overlap) const
   {
@@ -222,10 +226,13 @@ struct Tabulated
   /// The reversal at x_max, out of `kept` where that holds it, and kept there else.
   Reversal reversal(double x_max, double impact_overlap, double* kept) const
   {
-    if (kept[0] != x_max) [[unlikely]] {
-      const Reversal reversal = curve->reversal(x_max, impact_overlap);
-      std::memcpy(kept, &reversal, sizeof reversal);
-    }
+    if (kept[0] != x_max) [[unlikely]]
+      keep(curve->reversal(x_max, impact_overlap), kept);
+    return kept_reversal(kept);
+  }
+  static void keep(const Reversal& reversal, double* kept) { std::memcpy(kept, &reversal, sizeof reversal); }
+  static Reversal kept_reversal(const double* kept)
+  {
     std::array<double, values_of(keeps)> values;
     std::copy_n(kept, values.size(), values.begin());
     return std::bit_cast<Reversal>(values);
