@@ -192,7 +192,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   double per_stretch() const { return 1.0 / stretch_; }
   bool rigid_wall() const { return setup_->wall && !setup_->options.deformable_wall; }
   /// Books a depth that the tangential law changed from `from`.
-  [[gnu::noinline]] void change_depth(SurfacesIntersectData sidata, const Entry& entry, double r_eff, double from) const
+  void change_depth(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double from) const
   {
     double* const kept = kept_of(sidata.contact_history);
     const double latched = State::impact_overlap(kept), to = State::largest(kept);

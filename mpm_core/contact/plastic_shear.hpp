@@ -136,7 +136,7 @@ class PlasticShear
     Facet<Dent> now = trial;
     const int parts = parts_of(step, pressed);
     for (int part = 1; part <= parts; ++part) {
-      const FacetMotion some = step.part(part, parts);
+      const FacetMotion some = parts > 1 ? step.part(part, parts) : step;
       if (parts > 1)
         trial = FacetTrial(law.dent(m.r_eff, std::max(held.depth, some.overlap), latched, own), material_, held, some);
       now = trial;
@@ -180,7 +180,7 @@ class PlasticShear
     const double a = held.stiffness / material_.shear_stiffness;
     state.press_to(elastic ? 1.0 : a * a / state.dent.radius2, material_.shear_stiffness);
     state.pull = held.pull;
-    taken -= lost_between(state.dent, pressed);
+    if (depth != pressed.depth) taken -= lost_between(state.dent, pressed);
     return FacetLoads(state);
   }
   /// J, that a head-on contact loses between two depths that lie near.
