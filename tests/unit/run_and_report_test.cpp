@@ -1,5 +1,7 @@
 #include "run_and_report.hpp"
 
+#include <regex>
+
 #include "refusal.hpp"
 #include "scratch_folder.hpp"
 #include "some_materials.hpp"
@@ -46,14 +48,14 @@ TEST_F(RunAndReport, RefinesToTheToleranceAskedFor)
   EXPECT_GT(runs, 1);
 }
 
-/// Runs whose e errs by the error rule of the cells: 0.5 (12/cells)^1.65, `hours` at 14 cells.
-granulaw::Run converging(double hours)
+/// Runs whose e errs by the error rule of the cells, or another order: 0.5 (12/cells)^1.65, `hours` at 14 cells.
+granulaw::Run converging(double hours, double order = 1.65)
 {
-  return [hours](const RunOptions& options) {
+  return [hours, order](const RunOptions& options) {
     const int cells = options.resolution ? options.resolution : 14;
     RunResult run = some_result(1);
     run.summary.resolution = cells, run.summary.force_max = 1;
-    run.summary.restitution = 0.5 + 0.5 * std::pow(12.0 / cells, 1.65);
+    run.summary.restitution = 0.5 + 0.5 * std::pow(12.0 / cells, order);
     run.summary.cpu_s = 3600 * hours * std::pow(cells / 14.0, 3);
     return run;
   };
@@ -67,6 +69,22 @@ TEST_F(RunAndReport, TheCostOfAToleranceIsStatedBeforeItIsSpent)
   const std::string said = testing::internal::GetCapturedStderr();
   EXPECT_NE(said.find("0.1 takes about"), std::string::npos) << said;
   EXPECT_NE(said.find("of CPU"), std::string::npos) << said;
+}
+
+/// Just above the onset of a stiff body the error falls more slowly than by the rule.
+TEST_F(RunAndReport, TheCostFollowsTheOrderThatTheRunsShow)
+{
+  request_.tolerance = 0.1;
+  int finest = 0;
+  testing::internal::CaptureStderr();
+  reported([&](const RunOptions& options) {
+    finest = std::max(finest, options.resolution);
+    return converging(0.1, 1)(options);
+  });
+  const std::string said = testing::internal::GetCapturedStderr();
+  std::smatch told;
+  ASSERT_TRUE(std::regex_search(said, told, std::regex("at 20 cells .* takes about (\\d+) cells"))) << said;
+  EXPECT_EQ(told[1], std::to_string(finest)) << said;
 }
 
 TEST_F(RunAndReport, AToleranceOutOfReachIsRefusedAfterTheFirstResolution)

@@ -55,6 +55,11 @@ bool is_spatial(const RunResult& run)
   return !run.planes.empty();
 }
 
+const CellsRule& rule_of(const RunResult& run)
+{
+  return is_spatial(run) ? spatial_rule : rule_of_revolution;
+}
+
 double cell_ratio(const RunResult& fine, const RunResult& coarse)
 {
   return static_cast<double>(fine.summary.resolution) / coarse.summary.resolution;
@@ -99,7 +104,7 @@ CellsError error_of_cells(const RunResult& fine, const RunResult& coarse)
   constexpr double unknown = std::numeric_limits<double>::infinity();
   const double ratio = cell_ratio(fine, coarse);
   if (!(ratio > 1)) return {unknown, unknown};
-  const CellsRule& rule = is_spatial(fine) ? spatial_rule : rule_of_revolution;
+  const CellsRule& rule = rule_of(fine);
   const double force = change_of_loading(fine, coarse);
   const double e = std::abs(coarse.summary.restitution / fine.summary.restitution - 1);
   return {rule.left(force, ratio), rule.left(larger(force, e), ratio)};
@@ -140,15 +145,22 @@ RunResult run_with_estimate(const RunOptions& options, const Run& run)
 
 namespace {
 
-/// From a run's cost and its error estimate by two resolutions.
-ToleranceForecast forecast_of(const RunResult& run, double tolerance, double error_of_cells)
+/// Order by which the error fell with the cells. Just above the onset of a stiff body it is less than the rule's; below
+/// half of that a difference is noise.
+double order_between(const RunResult& fine, double error, const RunResult& coarse, double error_of_coarse)
 {
-  const CellsRule& rule = is_spatial(run) ? spatial_rule : rule_of_revolution;
+  const double seen = std::log(error_of_coarse / error) / std::log(cell_ratio(fine, coarse)), most = rule_of(fine).order;
+  return std::clamp(seen, 0.5 * most, most);
+}
+
+/// From a run's cost and its error estimate by two resolutions, which falls by this order of the cells.
+ToleranceForecast forecast_of(const RunResult& run, double tolerance, double error_of_cells, double order)
+{
   const double power = is_spatial(run) ? 4 : 3;  // of the cost: cells, and steps
   const RunSummary& s = run.summary;
   ToleranceForecast forecast{s.resolution, s.error_estimate, s.resolution, 0};
   const auto scaled = [&](int cells) { return static_cast<double>(cells) / s.resolution; };
-  while (error_of_cells * std::pow(scaled(forecast.wanted_cells), -rule.order) > tolerance) {
+  while (error_of_cells * std::pow(scaled(forecast.wanted_cells), -order) > tolerance) {
     forecast.wanted_cells = finer_rung(forecast.wanted_cells);
     forecast.cpu_s += s.cpu_s * std::pow(scaled(forecast.wanted_cells), power);
   }
@@ -176,7 +188,8 @@ class ToleranceSearch
     int cells = std::max(range_.first, options_.resolution);
     RunResult coarse = run_at(options_, coarse_partner(cells));
     add_cost(spent_, coarse.summary);
-    for (;; cells = finer_rung(cells)) {
+    double order = rule_of(coarse).order;
+    for (double last_error = 0;; cells = finer_rung(cells)) {
       options_.resolution = cells;
       found_.result = run_(options_);
       RunSummary& s = found_.result.summary;
@@ -184,7 +197,9 @@ class ToleranceSearch
       s.error_estimate = std::hypot(found_.resolution_error, found_.step_error, found_.ramp_error);
       found_.reached = s.error_estimate <= tolerance_;
       if (found_.reached || finer_rung(cells) > range_.last) break;
-      if (forecast) forecast(forecast_of(found_.result, tolerance_, found_.resolution_error));
+      if (last_error > 0) order = order_between(found_.result, found_.resolution_error, coarse, last_error);
+      last_error = found_.resolution_error;
+      if (forecast && std::isfinite(last_error)) forecast(forecast_of(found_.result, tolerance_, found_.resolution_error, order));
       add_cost(spent_, s);
       coarse = std::move(found_.result);
     }

@@ -78,7 +78,7 @@ struct ToleranceForecast
 {
   int cells = 0;           ///< of that resolution
   double estimate = 0;     ///< its error estimate
-  int wanted_cells = 0;    ///< by the error rule of the cells; may lie beyond the range
+  int wanted_cells = 0;    ///< by the error rule of the cells, or the slower fall so far; may lie beyond the range
   double cpu_s = 0;        ///< of all runs up to there
 };
 
