@@ -17,17 +17,16 @@ struct FacetMaterial
   double shear_stiffness = 0;  ///< Pa, 8 G*: k_t over the contact radius
   double asymmetry = 1;        ///< of BodiesInShear
   double friction = 0;
-  double per_radius2 = 1;  ///< unit of contact radii over R*, to the power of -2
   FlowStress flow_stress;
 
-  /// Pa, T_0 over the area that bears; (4). `area`: a_m^2; `part`: u.
-  double strength(double area, double r_eff, double sheared, double part) const
+  /// Pa, T_0 over the area that bears; (4). `steepness`: a_m/R; `area`: a^2.
+  double strength(double steepness, double area, double sheared) const
   {
-    const double ratio2 = area * per_radius2 / (r_eff * r_eff);
+    const double ratio2 = steepness * steepness;
     double stress = flow_stress.yield;
     if (flow_stress.hardens())
       stress = flow_stress.at(std::sqrt(tabor_strain * tabor_strain * ratio2 +
-                                        shear_strain * shear_strain * sheared * sheared / (area * part)));
+                                        shear_strain * shear_strain * sheared * sheared / area));
     return widening * (1.0 - ratio2) * stress;
   }
 
@@ -105,7 +104,7 @@ struct Facet
   Vector pull{};         ///< N, T
 
   Facet(const Dent& below, double r_eff, const Vector& tilted)
-      : dent(below), tilt(tilted), curvature(below.radius2 * below.per_span), lift(curvature - (r_eff - below.residual()))
+      : dent(below), tilt(tilted), curvature(below.radius * below.radius * below.per_span), lift(curvature - (r_eff - below.residual()))
   {
   }
   void press(double overlap, double shear_stiffness)
@@ -116,7 +115,7 @@ struct Facet
   {
     part = u;
     if (!(part > 0)) return;
-    force = dent.force_of(part), stiffness = shear_stiffness * std::sqrt(dent.radius2 * part);
+    force = dent.force_of(part), stiffness = shear_stiffness * dent.radius * std::sqrt(part);
   }
   bool touches() const { return part > 0; }
   Vector moment() const { return times(tilt, force * lift); }  ///< N m, M, in the direction of the tilt
@@ -172,7 +171,8 @@ struct FacetTrial : Facet<Dent>
     shift = material.asymmetry * pressure_shift * this->stiffness / (material.shear_stiffness * this->force * this->curvature);
     lean = sum(this->tilt, this->pull, shift), leans = norm(lean);
     bears = bearing(leans);
-    strength = material.strength(dent.radius2, step.radius, held.sheared, this->part) * dent.radius2 *
+    const double area = dent.radius * dent.radius;
+    strength = material.strength(dent.steepness, area * this->part, held.sheared) * area *
                std::min(this->part, std::max(bears, least_bearing));
     const double q = pulls / strength;
     yields = q > 1.0 + tolerance || this->force > (bears * ShearYield::share_at(q * q) + tolerance) * dent.force;
@@ -180,7 +180,7 @@ struct FacetTrial : Facet<Dent>
 
   /// Part of the area that bears at a |phi'|: half of a half disc. Linear, and left to become negative.
   double bearing(double lean_now) const { return 1.0 - bearing_slope() * lean_now; }
-  double bearing_slope() const { return 3.0 * M_PI / 8.0 * std::sqrt(this->dent.radius2) * this->dent.per_span; }
+  double bearing_slope() const { return 3.0 * M_PI / 8.0 * this->dent.radius * this->dent.per_span; }
 
  private:
   static constexpr double pressure_shift = 0.22;  // zeta, fitted: T moves the pressure back by zeta a T/F
@@ -190,8 +190,8 @@ struct FacetTrial : Facet<Dent>
   /// Parted: beyond this tilt the dent's rim would touch, around which the body is a sphere again.
   void end_tilt()
   {
-    const double rim2 = this->dent.span * this->dent.span / this->dent.radius2, tilt2 = dot(this->tilt, this->tilt);
-    if (tilt2 > rim2) this->tilt = times(this->tilt, std::sqrt(rim2 / tilt2));
+    const double rim = this->dent.span / this->dent.radius, tilted = norm(this->tilt);
+    if (tilted > rim) this->tilt = times(this->tilt, rim / tilted);
   }
 };
 
@@ -209,7 +209,7 @@ class FacetFlow
       : facet_(facet), friction_(material.friction), per_strength_(1.0 / facet.strength)
   {
     const Dent& dent = facet.dent;
-    const double a_m = std::sqrt(dent.radius2), a = a_m * std::sqrt(facet.part);
+    const double a_m = dent.radius, a = a_m * std::sqrt(facet.part);
     const double give = facet.stiffness * dent.force * per_strength_ * per_strength_;
     before_ = std::min(1.0, norm(held.stretched({}, facet.stiffness)) * per_strength_);
     tried_ = facet.spring * per_strength_;

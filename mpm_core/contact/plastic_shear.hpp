@@ -58,7 +58,7 @@ class PlasticShear
   PlasticShear(const Normal& law, const ShearPair& spring, const BodiesInShear& bodies)
       : elastic_(spring),
         damping_ratio_(bodies.damping_ratio),
-        material_{bodies.stiffness, bodies.asymmetry, spring.friction, 1.0 / (law.radius_unit() * law.radius_unit()), law.flow_stress()},
+        material_{bodies.stiffness, bodies.asymmetry, spring.friction, law.flow_stress()},
         stretch_(law.stretch()),
         per_stretch_(1.0 / law.stretch())
   {
@@ -177,8 +177,8 @@ class PlasticShear
     const bool elastic = held.depth * stretch_ <= law.yield_overlap() * step.radius;  // it had no dent
     const double depth = elastic ? std::clamp(step.overlap - step.deepening, 0.01 * held.depth, held.depth) : held.depth;
     Facet<Dent> state(depth == pressed.depth ? pressed : law.dent(step.radius, depth, latched), step.radius, held.tilt);
-    const double a = held.stiffness / material_.shear_stiffness;
-    state.press_to(elastic ? 1.0 : a * a / state.dent.radius2, material_.shear_stiffness);
+    const double root = held.stiffness / (material_.shear_stiffness * state.dent.radius);
+    state.press_to(elastic ? 1.0 : root * root, material_.shear_stiffness);
     state.pull = held.pull;
     if (depth != pressed.depth) taken -= lost_between(state.dent, pressed);
     return FacetLoads(state);
@@ -196,7 +196,7 @@ class PlasticShear
   static int parts_of(const FacetMotion& step, const Dent& dent)
   {
     constexpr double finest = 0.005, most = 16, deep = 0.1;
-    const double moves = std::max(std::abs(step.deepening), std::sqrt(dent.radius2) * norm(step.turn)) / (finest * dent.depth);
+    const double moves = std::max(std::abs(step.deepening), dent.radius * norm(step.turn)) / (finest * dent.depth);
     return static_cast<int>(std::max(1.0, std::ceil(std::min(most, moves) * std::min(1.0, dent.depth / (deep * step.radius)))));
   }
 

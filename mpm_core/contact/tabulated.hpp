@@ -150,9 +150,10 @@ struct Tabulated
   struct Dent
   {
     Reversal back;
-    double per_length, unit;       // 1/(lambda R*), and the force at x = 1
-    double depth, force, radius2;  ///< m, F_m in N, a_m^2 in m^2
-    double span, per_span;         ///< m, depth less residual overlap
+    double per_length, unit;      // 1/(lambda R*), and the force at x = 1
+    double depth, force, radius;  ///< m, F_m in N, a_m in m
+    double steepness;             ///< a_m over the body's radius
+    double span, per_span;        ///< m, depth less residual overlap
 
     static constexpr double growth = 0.6;  ///< d ln(span)/d ln(depth), nearly
 
@@ -178,12 +179,10 @@ struct Tabulated
   }
   Dent dent(double r_eff, double depth, const Reversal& back) const
   {
-    const double per_length = per_lambda * scale.stretch / r_eff, unit = force_scale * scale.stretch * r_eff * r_eff;
-    const double a = mapping.radius(r_eff) * curve->radius(depth * per_length), per_span = back.per_span * per_length;
-    return {back, per_length, unit, depth, unit * back.top(), a * a, 1.0 / per_span, per_span};
+    const double per_length = per_lambda / r_eff * scale.stretch, unit = force_scale * scale.stretch * r_eff * r_eff;
+    const double steepness = curve->radius(depth * per_length), per_span = back.per_span * per_length;
+    return {back, per_length, unit, depth, unit * back.top(), mapping.radius(r_eff) * steepness, steepness, 1.0 / per_span, per_span};
   }
-  /// m, unit of contact radii over R*.
-  double radius_unit() const { return mapping.radius(1.0); }
   double stretch() const { return scale.stretch; }
   FlowStress flow_stress() const
   {
