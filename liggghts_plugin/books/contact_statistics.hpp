@@ -84,6 +84,7 @@ struct ContactStatistics
     double near = 0;         ///< contacts that came deeper than near_edge of the table
     double past = 0;         ///< contacts that went beyond the table
     double beyond = 0;       ///< contact-steps beyond the law's table
+    double crushed = 0;      ///< J, taken beyond the table under `beyondRange crush`; part of `taken`
     double too_fast = 0;     ///< contacts that began faster than the law's velocity axis goes
     double too_slow = 0;     ///< contacts that began slower than the slowest impact of a rate law
     double sudden = 0;       ///< contacts that began deeper than one step's motion can bring them
@@ -194,6 +195,7 @@ inline constexpr auto quantities = [] {
       Quantity{&Pair::near, sum, Quantity::plain, "contacts_near_table_edge", 11},
       Quantity{&Pair::past, sum, Quantity::plain, "contacts_past_table"},
       Quantity{&Pair::beyond, sum, Quantity::plain, "contact_steps_beyond_table", 8},
+      Quantity{&Pair::crushed, sum, Quantity::energy, "crush_dissipation_J", 20},
       Quantity{&Pair::too_fast, sum, Quantity::plain, "contacts_beyond_speed_axis", 10},
       Quantity{&Pair::too_slow, sum, Quantity::plain, "contacts_below_speed_axis", 15},
       Quantity{&Pair::sudden, sum, Quantity::plain, "contacts_begun_overlapping", 16, false, 6},

@@ -6,6 +6,9 @@
 
 namespace granulaw::plugin {
 
+/// Columns of each particle, under `beyondRange crush`: J taken beyond the law's table, largest overlap/R* of such a contact.
+inline constexpr ParticleColumns::Spec crushed_particles{.name = "granulaw_crush", .columns = 2, .restart = true, .to_ghosts = false, .from_ghosts = false};
+
 /// Energies of single particles and the work of all forces but the normal law's: only with `energy on`.
 ///
 /// Each particle of a pair owns half of what their contact holds and loses; at a wall the particle owns all.

@@ -49,6 +49,8 @@ std::string limits_text(const ContactStatistics& sum, const ContactStatistics::P
     add(fmt::format("{:.0f} contacts came deeper than {:.0f} % of the law's table, {:.0f} beyond it",
                     all.near, 100 * near_edge, all.past));
   if (all.beyond > 0) add(fmt::format("{:.0f} contact-steps beyond the law's table", all.beyond));
+  if (all.crushed > 0)
+    add(fmt::format("contacts crushed beyond the law's table took {:.6g} J (beyondRange crush): an estimate, which no law states", all.crushed));
   if (deep.contacts > 0)
     add(fmt::format(
         "{:.0f} contacts flattened a body by more than a tenth of its radius; {:.0f} particles had several "

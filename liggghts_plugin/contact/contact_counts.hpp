@@ -100,6 +100,29 @@ class ContactCounts
     entry.counts->other_work -= weight * held;
   }
 
+  /// A step that takes the contact from the table's end `by` deeper, at the law's force there. `first`: the first one.
+  /// A contact that began there came by no motion, which paid nothing.
+  void crush(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double force, double by, bool first, bool began) const
+  {
+    const double weight = this->weight(contact), work = began && is_sudden(contact) ? 0.0 : force * by * (contact.is_wall ? contact.area_ratio : 1.0);
+    ContactStatistics::Pair& counts = *entry.counts;
+    if (first) counts.past += weight;
+    counts.beyond += weight;
+    counts.crushed += weight * work;
+    counts.taken[Mechanism::plastic] += weight * work;
+    counts.overlap_max = std::max(counts.overlap_max, contact.deltan / r_eff);
+    if (energy_) energy_->share(contact, EnergyTally::dissipated, work, lmp_->atom->nlocal);
+    const ParticleColumns particles = ParticleColumns::find(lmp_, crushed_particles);
+    if (!particles) return;
+    const auto add = [&](int particle, double energy) {
+      double* row = particles.rows()[particle];
+      row[0] += energy;
+      row[1] = std::max(row[1], contact.deltan / r_eff);
+    };
+    add(contact.i, contact.is_wall ? work : 0.5 * work);
+    if (!contact.is_wall && contact.j < lmp_->atom->nlocal) add(contact.j, 0.5 * work);
+  }
+
   /// True of a contact that begins in this step, deeper than motion can bring it.
   bool is_sudden(const SurfacesIntersectData& contact) const
   {

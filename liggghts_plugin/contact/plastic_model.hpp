@@ -72,6 +72,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
            "particle's contacts, f_granulaw[1] in a dump");
     if (setup_->options.body_compliance.value_or(false))
       behind_offset_ = hsetup->add_history_value("body_compliance", "0");
+    if (beyond_range() == BeyondRange::crush) crushed_offset_ = hsetup->add_history_value("crushed", "0");
+    changes_overlap_ = behind_offset_ >= 0 || crushed_offset_ >= 0;
     tangential_.damping =
         tangential_damping_ ? setup_->options.tangential_damping.value_or(default_tangential_damping) : 0.0;
     tangential_.computed = setup_->options.tangential_computed.value_or(false);
@@ -109,8 +111,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     if constexpr (!Law::keeps.empty())
       if (update->ntimestep == first_step_) [[unlikely]]
         State::forget_derived(kept);  // what a restart brings may be of another law
-    if (behind_offset_ >= 0) [[unlikely]]
-      sidata.deltan = overlap_of_law(entry.contact, r_eff, sidata.deltan, compliance_behind(sidata, entry, delta_max), kept);
+    if (changes_overlap_) [[unlikely]]
+      sidata.deltan = changed_overlap(sidata, entry, r_eff, kept);
     if (sidata.deltan > entry.largest_overlap * r_eff) [[unlikely]] {
       if (began_beyond(sidata, entry, r_eff, delta_max)) {
         sidata.deltan = entry.largest_overlap * r_eff;  // a bounded force
@@ -167,7 +169,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
       return;  // near neighbours that never touched: leave their cache lines alone
     counts_.forget_speed(scdata.contact_history);
     std::fill_n(kept, State::values, 0.0);
-    if (behind_offset_ >= 0) scdata.contact_history[behind_offset_] = 0.0;
+    for (const int offset : {behind_offset_, crushed_offset_})
+      if (offset >= 0) scdata.contact_history[offset] = 0.0;
   }
 
   // For a tangential law of ours (OwnTangential).
@@ -220,7 +223,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
                  r_eff = contact.r_eff();
     double copy[State::values];
     std::copy_n(kept, State::values, copy);
-    const double overlap = overlap_of_law(pair.contact, r_eff, contact.overlap, kept_compliance(contact.history), copy);
+    const double now = std::max(contact.overlap - (crushed_offset_ >= 0 ? contact.history[crushed_offset_] : 0.0), 0.0);
+    const double overlap = overlap_of_law(pair.contact, r_eff, now, kept_compliance(contact.history), copy);
     return {pair.contact.contact_radius(r_eff, overlap, delta_max, impact_overlap), delta_max,
             pair.contact.dissipated(r_eff, 0.0, delta_max, impact_overlap)};
   }
@@ -262,6 +266,32 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
     if constexpr (LatchesImpact<Law>)
       return entry.contact.impact_overlap(r_eff, contact_mass(setup_->session->bodies, sidata), -sidata.vn);
     return 0.0;
+  }
+
+  BeyondRange beyond_range() const { return setup_->options.beyond_range.value_or(BeyondRange::stop); }
+
+  /// The law's overlap: without what bodies behind the contact take, and what was crushed.
+  [[gnu::noinline]] double changed_overlap(SurfacesIntersectData sidata, const Entry& entry, double r_eff, double* kept) const
+  {
+    double crushed = crushed_offset_ >= 0 ? sidata.contact_history[crushed_offset_] : 0.0;
+    double overlap = std::max(sidata.deltan - crushed, 0.0);
+    if (behind_offset_ >= 0)
+      overlap = overlap_of_law(entry.contact, r_eff, overlap, compliance_behind(sidata, entry, State::largest(kept)), kept);
+    return crushed_offset_ >= 0 && overlap > entry.largest_overlap * r_eff ? crush(sidata, entry, r_eff, overlap, kept) : overlap;
+  }
+
+  /// Beyond the table's end the force stays: the law's overlap, which is the end. What is beyond is lost for good.
+  double crush(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double overlap, double* kept) const
+  {
+    const double end = entry.largest_overlap * r_eff, from = State::largest(kept);
+    if (end < 0.0) return overlap;  // there is no law
+    double& crushed = sidata.contact_history[crushed_offset_];
+    if (sidata.computeflag && sidata.shearupdate) {
+      const double force = entry.contact.force(r_eff, end, std::max(from, end), State::impact_overlap(kept), kept + State::own);
+      counts_.crush(sidata, entry, r_eff, force, overlap - end, crushed == 0.0, from == 0.0);
+      crushed += overlap - end;
+    }
+    return end;
   }
 
   /// m/N, of the bodies behind the contact. It stays that of the first touch: while a clump turns over a contact the
@@ -328,7 +358,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
                                                  double delta_max) const
   {
     const double end = entry.largest_overlap * r_eff;
-    if (entry.largest_overlap < 0 || !setup_->options.stop_beyond_range.value_or(true)) return false;
+    if (entry.largest_overlap < 0 || beyond_range() != BeyondRange::stop) return false;
     return delta_max == 0.0 ? counts_.is_sudden(sidata) : delta_max == end;
   }
 
@@ -351,13 +381,12 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
                       setup_->where, sidata.itype, sidata.is_wall ? "a wall of type" : "type", sidata.jtype));
     if (sidata.computeflag && sidata.shearupdate) entry.counts->beyond += counts_.weight(sidata);
     // 5 %: the linear continuation is still within about a percent of the force there.
-    if (!setup_->options.stop_beyond_range.value_or(true) ||
-        !(sidata.deltan > 1.05 * entry.largest_overlap * r_eff))
+    if (beyond_range() != BeyondRange::stop || !(sidata.deltan > 1.05 * entry.largest_overlap * r_eff))
       return;
     const double speed = approach(sidata);
     entry.counts->overlap_max = std::max(entry.counts->overlap_max, sidata.deltan / r_eff);
     stop_one(lmp, fmt::format("{}: overlap/R* {:.4g} of types {} and {} {} {:.4g} m/s is more than 5 % beyond "
-                              "the law's table, which ends at {:.4g}{}, or say 'beyondRange continue'",
+                              "the law's table, which ends at {:.4g}{}, or say 'beyondRange crush'",
                               setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype,
                               speed < 0 ? "parting at" : "at", std::abs(speed), entry.largest_overlap,
                               remedy(entry, sidata.deltan / r_eff)));
@@ -396,6 +425,8 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   EnergyTally* energy_ = nullptr;  // null: energy off
   int history_offset_ = -1;        // of State's values
   int behind_offset_ = -1;         // of the compliance of bodies behind a contact; -1: `bodyCompliance` is off
+  int crushed_offset_ = -1;        // of the length crushed; -1: `beyondRange` is not crush
+  bool changes_overlap_ = false;   // either of the two is there
   LAMMPS_NS::bigint first_step_ = 0;  // of this run
   TangentialChoice tangential_;
   double stretch_ = 1.0;

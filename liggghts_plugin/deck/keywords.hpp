@@ -14,7 +14,7 @@ struct Keyword
 {
   std::string_view name;
   bool in_pair_style = true, in_wall = true;  ///< where it may stand
-  std::array<std::string_view, 2> words{};
+  std::array<std::string_view, 3> words{};  ///< the last may be empty
   double least = 0.0, most = -1.0;  ///< least > most: no number
   /// List up to the next keyword, if one word or more: "one name for each atom type".
   std::string_view list{};
@@ -40,7 +40,7 @@ inline constexpr std::array shared_keywords{
 };
 
 /// For models whose law ends at a largest overlap: put it among the model's own keywords.
-inline constexpr Keyword beyond_range{.name = "beyondRange", .words = {"stop", "continue"}};
+inline constexpr Keyword beyond_range{.name = "beyondRange", .words = {"stop", "continue", "crush"}};
 
 /// Keywords that LIGGGHTS itself reads behind the models, each followed by on or off.
 inline constexpr std::array liggghts_keywords{

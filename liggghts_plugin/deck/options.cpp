@@ -96,13 +96,15 @@ std::optional<double> number(const std::string& text)
 /// Throws Error unless `value` may follow the keyword.
 void check_value(const Keyword& keyword, const std::string& value, const std::string& where)
 {
-  if (contains(keyword.words, value) || (!keyword.takes_words() && !keyword.takes_number())) return;
+  const auto end = std::find(keyword.words.begin(), keyword.words.end(), std::string_view());
+  const std::span words(keyword.words.begin(), end);
+  if (contains(words, value) || (!keyword.takes_words() && !keyword.takes_number())) return;
   const std::string range = fmt::format("{:g} to {:g}", keyword.least, keyword.most);
   const bool has_digits = value.find_first_of("0123456789") != std::string::npos;
   if (keyword.takes_words() && !(keyword.takes_number() && has_digits))
     fail(where, fmt::format("'{}' has an unknown value", keyword.name), fmt::format("'{}'", value),
          fmt::format("{}{}", keyword.takes_number() ? fmt::format("a number from {}, ", range) : "",
-                     fmt::join(keyword.words, ", ")));
+                     fmt::join(words, ", ")));
   const std::optional<double> found = number(value);
   if (!found) fail(where, fmt::format("'{}' needs a number", keyword.name), fmt::format("'{}'", value));
   if (!(*found >= keyword.least && *found <= keyword.most))
@@ -170,7 +172,8 @@ Options shared_options(const Said& said)
   options.energy = is("energy", "on");
   options.dissipated_energy = is("computeDissipatedEnergy", "on");
   options.contact_map = is("contactMap", "on");
-  options.stop_beyond_range = choice("beyondRange", "stop");
+  if (const std::string* text = value("beyondRange"))
+    options.beyond_range = *text == "stop" ? BeyondRange::stop : *text == "crush" ? BeyondRange::crush : BeyondRange::proceed;
   options.heat_by_law = choice("heatArea", "law");
   return options;
 }
@@ -200,7 +203,7 @@ void Options::inherit(const Options& pair)
   take(elastic_damping, pair.elastic_damping);
   take(body_compliance, pair.body_compliance);
   take(stretch, pair.stretch);
-  take(stop_beyond_range, pair.stop_beyond_range);
+  take(beyond_range, pair.beyond_range);
   take(heat_by_law, pair.heat_by_law);
   own.insert(pair.own.begin(), pair.own.end());
 }

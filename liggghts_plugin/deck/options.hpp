@@ -21,6 +21,9 @@ struct ElasticDamping
 /// Fraction of R* at which a stretched contact stops the run: deeper, spheres slip through each other.
 inline constexpr double stretched_overlap_limit = 0.5;
 
+/// Response of a contact deeper than the law's table.
+enum class BeyondRange { stop, proceed, crush };
+
 /// The plug-in's own keywords in `pair_style gran` and `fix wall/gran`. See
 /// docs/reference/pair_gran_model_mpm.md.
 struct Options
@@ -36,7 +39,7 @@ struct Options
   bool energy = false;                    ///< `energy on|off` (pair): energies per particle, friction
   bool dissipated_energy = false;         ///< LIGGGHTS's own `computeDissipatedEnergy on|off`
   bool contact_map = false;               ///< `contactMap on|off` (pair): counts of speed and overlap, joint
-  std::optional<bool> stop_beyond_range;  ///< `beyondRange stop|continue` (models with a table)
+  std::optional<BeyondRange> beyond_range;  ///< `beyondRange stop|continue|crush` (models with a table)
   std::optional<bool> heat_by_law;        ///< `heatArea overlap|law`: the area that heat passes through
 
   /// Each of the model's own keywords that was said, with the words behind it.

@@ -100,6 +100,7 @@ class Session
   EnergyTally* energy = nullptr;   ///< &tally with `energy on`, else null
   bool contact_map = false;        ///< `contactMap on`
   bool dissipated_energy = false;  ///< `computeDissipatedEnergy on`
+  bool crushes = false;            ///< `beyondRange crush` of the pair style or a wall
   EnergyTally tally;
   Bodies bodies;
 

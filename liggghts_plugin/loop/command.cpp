@@ -63,6 +63,7 @@ void read_setup(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, Setup& setu
   if (!is_wall) share_with_session(setup);
   setup.energy = session.energy != nullptr;
   setup.contact_map = session.contact_map;
+  if (setup.options.beyond_range == BeyondRange::crush) session.crushes = true;
 }
 
 /// Notes the command's models and words, as restart files keep them.
@@ -73,6 +74,7 @@ void note_meaning(const CommandModels& models, Setup& setup)
   setup.meaning = {models.ids.hash() | bit(setup.energy, HistoryMeaning::energy) |
                        bit(setup.contact_map, HistoryMeaning::contact_map) |
                        bit(options.body_compliance.value_or(false), HistoryMeaning::body_compliance) |
+                       bit(options.beyond_range == BeyondRange::crush, HistoryMeaning::crush) |
                        bit(options.deformable_wall, HistoryMeaning::deformable_wall) |
                        bit(options.tangential_computed.value_or(false), HistoryMeaning::computed_stiffness),
                    options.stretch.value_or(1.0)};

@@ -39,6 +39,7 @@ void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp)
   if (!lmp->domain->box_exist) return;
   const std::shared_ptr<Session> session = Session::of(lmp);
   EnergyTally::provide(lmp, session->energy != nullptr, session->dissipated_energy);
+  if (session->crushes) ParticleColumns::provide(lmp, crushed_particles);
   if (lmp->modify->find_fix_style_strict(style_name, 0)) return;
   const char* arg[] = {"granulaw", "all", style_name};
   lmp->modify->add_fix(3, const_cast<char**>(arg));

@@ -1,4 +1,5 @@
 #include "atlas_path.hpp"
+#include "deck/process.hpp"
 
 #include <cstdlib>
 

@@ -94,10 +94,11 @@ TEST(Options, MaterialsEndAtWordsThatAreMisplaced)
 
 TEST(Options, BeyondRange)
 {
-  EXPECT_EQ(options("beyondRange stop").stop_beyond_range, true);
-  EXPECT_EQ(options("beyondRange continue").stop_beyond_range, false);
+  EXPECT_EQ(options("beyondRange stop").beyond_range, BeyondRange::stop);
+  EXPECT_EQ(options("beyondRange continue").beyond_range, BeyondRange::proceed);
+  EXPECT_EQ(options("beyondRange crush").beyond_range, BeyondRange::crush);
   EXPECT_EQ(refusal("beyondRange on"),
-            "HERE: 'beyondRange' has an unknown value: found 'on', allowed is stop, continue");
+            "HERE: 'beyondRange' has an unknown value: found 'on', allowed is stop, continue, crush");
   EXPECT_TRUE(holds(refusal("beyondRange stop", thornton), "unknown keyword 'beyondRange'"));
 }
 
@@ -265,7 +266,7 @@ TEST(Options, AWallInheritsWhatItLeavesOpen)
   EXPECT_EQ(bare.own, from.own);
   EXPECT_EQ(bare.stretch, 2.0);
   EXPECT_EQ(bare.elastic_damping, ElasticDamping{0.0});
-  EXPECT_EQ(bare.stop_beyond_range, false);
+  EXPECT_EQ(bare.beyond_range, BeyondRange::proceed);
   EXPECT_EQ(bare.tangential_damping, 0.5);
   EXPECT_EQ(bare.tangential_computed, true);
   EXPECT_EQ(bare.heat_by_law, true);
@@ -280,7 +281,7 @@ TEST(Options, AWallInheritsWhatItLeavesOpen)
   EXPECT_EQ(own.own_words("materials"), (Words{"c", "d"}));
   EXPECT_EQ(own.own_words("law"), Words{"a.h5"});
   EXPECT_EQ(own.stretch, 3.0);
-  EXPECT_EQ(own.stop_beyond_range, true);
+  EXPECT_EQ(own.beyond_range, BeyondRange::stop);
   EXPECT_EQ(own.heat_by_law, false);
 }
 

@@ -1,8 +1,6 @@
 #include "deck/launcher.hpp"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -11,58 +9,21 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "deck/process.hpp"
 #include "liggghts_plugin/plan/scene_json.hpp"
 
 namespace granulaw::deck {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-/// liggghts-mpm: of the environment, beside this program, or where a build has it.
+/// liggghts-mpm: of the environment, or that which came with this program.
 std::string launcher()
 {
-  if (const char* chosen = std::getenv("GRANULAW_LAUNCHER"); chosen && *chosen) return chosen;
-  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-  for (const char* place : {"liggghts-mpm", "../../liggghts_plugin/liggghts-mpm"})
-    if (fs::exists(here / place)) return (here / place).string();
+  if (const char* chosen = std::getenv("GRANULAW_LAUNCHER"); chosen && *chosen) return std::filesystem::absolute(chosen).string();
+  if (const std::string own = own_file("liggghts-mpm"); !own.empty()) return own;
   fail("mpm",
        "LIGGGHTS reads the deck, and liggghts-mpm is not beside this program (set GRANULAW_LAUNCHER to its "
        "path)");
-}
-
-std::string read_all(int end)
-{
-  std::string all;
-  char part[65536];
-  for (ssize_t length; (length = read(end, part, sizeof part)) > 0;)
-    all.append(part, static_cast<std::size_t>(length));
-  return all;
-}
-
-/// Open MPI would take a program that a rank starts for the rank itself.
-void leave_mpi()
-{
-  std::vector<std::string> names;
-  for (char** entry = environ; *entry; ++entry) {
-    const std::string text = *entry;
-    for (const char* prefix :
-         {"PMIX_", "PMI_", "OMPI_COMM_", "OMPI_UNIVERSE_", "OMPI_MCA_orte", "OMPI_MCA_ess_base"})
-      if (text.starts_with(prefix)) names.push_back(text.substr(0, text.find('=')));
-  }
-  for (const std::string& name : names) unsetenv(name.c_str());
-}
-
-[[noreturn]] void start(const std::string& folder, const std::vector<std::string>& words, int output)
-{
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  dup2(output, STDOUT_FILENO);
-  dup2(output, STDERR_FILENO);
-  leave_mpi();
-  if (folder.empty() || chdir(folder.c_str()) == 0) execv(arguments[0], arguments.data());
-  _exit(127);
 }
 
 /// Words and file of a process.
@@ -77,29 +38,17 @@ struct Output
 Output start_launcher(const std::string& folder, const std::vector<std::string>& option,
                       const std::vector<std::string>& words)
 {
-  const std::string program = fs::absolute(launcher()).string();
-  const int scene = memfd_create("scene", 0);
-  int output[2];
-  if (scene < 0 || pipe(output) != 0) fail(program, "cannot make a pipe");
-  std::vector<std::string> command{program};
-  command.insert(command.end(), option.begin(), option.end());
-  command.push_back(fmt::format("/dev/fd/{}", scene));
-  command.insert(command.end(), words.begin(), words.end());
-  const pid_t child = fork();
-  if (child == 0) start(folder, command, output[1]);
-  close(output[1]);
-  Output result;
-  result.said = read_all(output[0]);
-  close(output[0]);
-  int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) != child || (WIFEXITED(status) && WEXITSTATUS(status) == 127))
-    fail(program, "cannot be started");
-  if (WIFSIGNALED(status))
-    result.said += fmt::format("\nERROR: LIGGGHTS was ended by signal {} ({})\n", WTERMSIG(status), strsignal(WTERMSIG(status)));
-  result.ended = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  lseek(scene, 0, SEEK_SET);
-  result.file = nlohmann::json::parse(read_all(scene), nullptr, false);
-  close(scene);
+  const int file = memory_file("mpm");
+  Process process{.words = {launcher()}, .folder = folder};
+  process.words.insert(process.words.end(), option.begin(), option.end());
+  process.words.push_back(fmt::format("/dev/fd/{}", file));
+  process.words.insert(process.words.end(), words.begin(), words.end());
+  Ended ended = run_process(process);
+  if (ended.exit == 127) fail(process.words[0], "cannot be started");
+  if (ended.signal) ended.said += fmt::format("\nERROR: LIGGGHTS was ended by signal {} ({})\n", ended.signal, strsignal(ended.signal));
+  lseek(file, 0, SEEK_SET);
+  Output result{ended.exit == 0, std::move(ended.said), nlohmann::json::parse(read_all(file), nullptr, false)};
+  close(file);
   return result;
 }
 

@@ -2,18 +2,10 @@
 #include "atlas_path.hpp"
 
 #include <cstdlib>
-#include <filesystem>
+
+#include "deck/process.hpp"
 
 namespace granulaw {
-
-std::string own_file(const std::string& name)
-{
-  namespace fs = std::filesystem;
-  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-  for (const fs::path& candidate : {here / name, here / "../share/granulaw" / name})
-    if (fs::exists(candidate)) return candidate.string();
-  return {};
-}
 
 std::string atlas_path()
 {

@@ -14,7 +14,4 @@ std::string atlas_path();
 /// That atlas, read; none if there is none. Throws Error if it cannot be used.
 std::optional<Atlas> own_atlas();
 
-/// A data file or script that belongs to the program, beside it or installed; empty: not found.
-std::string own_file(const std::string& name);
-
 }  // namespace granulaw

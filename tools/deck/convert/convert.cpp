@@ -113,9 +113,11 @@ class Converter
   std::string own_words(const Words& kept) const
   {
     const bool says_compliance = std::find(kept.begin(), kept.end(), "bodyCompliance") != kept.end();
-    return fmt::format(" law {} materials {}{}{}", conversion_.law, fmt::join(conversion_.materials, " "),
+    const bool says_range = std::find(kept.begin(), kept.end(), "beyondRange") != kept.end();
+    return fmt::format(" law {} materials {}{}{}{}", conversion_.law, fmt::join(conversion_.materials, " "),
                        conversion_.stretch > 1 ? fmt::format(" stretch {:g}", conversion_.stretch) : "",
-                       has_clumps_ && !says_compliance ? " bodyCompliance on" : "");
+                       has_clumps_ && !says_compliance ? " bodyCompliance on" : "",
+                       says_range ? "" : " beyondRange crush");
   }
 
   std::string normal_model(const Words& words) const
