@@ -1,7 +1,7 @@
 // Errors of composed laws of unlike pairs: random mixtures against two-body impacts.
 //
 //   granulaw_mixtures_study ATLAS FOLDER SEED COUNT    runs are kept in FOLDER and not made again; prints each case and
-//                                                      the summary, writes FOLDER/mixtures_SEED.csv. 60: 8 CPU minutes
+//                                                      the summary, writes FOLDER/mixtures_SEED.csv. 60: 7 CPU minutes
 //
 // Random mixtures, uniform in the logarithm: E* ratio 0.1 to 100, Y ratio 1 to 10 or elastic (3 of
 // 10), density ratio 0.3 to 10, radius ratio 0.1 to 10, E*/Y of the yielding body 30 to 1000, nu 0.1 to 0.45,
