@@ -139,6 +139,23 @@ void warn_strong_cohesion(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
     }
 }
 
+/// A deck in which a converted line was forgotten.
+void warn_of_other_tangential(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
+{
+  const auto pair = setup.session->meanings.find(pairs_record);
+  if (!setup.wall || pair == setup.session->meanings.end()) return;
+  const auto tangential = [](const HistoryMeaning& meaning) { return ModelIds::of(meaning.combination).tangential; };
+  const int at_wall = tangential(setup.meaning), of_pairs = tangential(pair->second);
+  if (at_wall == of_pairs || !setup.session->first_time(setup.where + " tangential") || lmp->comm->me != 0) return;
+  const auto words = [](int id) {
+    const std::string name = describe_pieces({.normal = 0, .tangential = id, .cohesion = 0, .rolling = 0, .surface = 0});
+    return name.empty() ? std::string("tangential off") : name.substr(1);
+  };
+  lmp->error->warning(FLERR, fmt::format("{}: it has '{}' and the pair style '{}': walls and particles turn and slide by different laws",
+                                         setup.where, words(at_wall), words(of_pairs))
+                                 .c_str());
+}
+
 /// A restart file whose contacts keep another number of values. LIGGGHTS refuses it, too, but names no cause.
 /// Contacts with meshes it refuses alone.
 void refuse_other_histories(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
@@ -238,6 +255,7 @@ void CommandStyle::begin_run(const std::function<void()>& init)
     init();
     check_run(lmp_, setup_);
     warn_strong_cohesion(lmp_, setup_);
+    warn_of_other_tangential(lmp_, setup_);
     if (!setup_.wall) provide_fixes(lmp_);  // the box did not exist when pair_style stood before create_box
   });
 }

@@ -249,3 +249,10 @@ class TestPlasticShear(Deck):
         by_rate = self.thrown(1.0, 45, 0.3, 50).replace(self.atlas_law, rated).replace("materials powder rigid", "materials powder elastic")
         self.refused(by_rate, f"law file {rated}: 'powder' depends on the strain rate: 'tangential plastic' needs one flow stress")
         self.run_deck(by_rate.replace("tangential plastic", "tangential history"))
+
+    def test_another_law_at_walls_is_named(self):
+        deck = self.thrown(1.0, 45, 0.3, 50)
+        assert "different laws" not in self.run_deck(deck)
+        at_wall = re.sub(r"(?m)^(fix \S+ all wall/gran .*)tangential plastic", r"\1tangential history", deck)
+        assert at_wall != deck
+        assert "it has 'tangential history' and the pair style 'tangential plastic': walls and particles turn and slide by different laws" in self.run_deck(at_wall)
