@@ -145,10 +145,7 @@ CalibrationProblem::CalibrationProblem(const Atlas& atlas, CalibrationRequest re
       if (unloadings[u].gap > 0)
         unknowns_.push_back({.unloading = u, .measurement = k, .scale = unloadings[u].gap, .step = 1e-2, .least = 0, .most = 1});
   }
-  const std::size_t wanted = std::max<std::size_t>(2, fitted_count());
-  if (data_ + request_.priors.size() < wanted)
-    fail(request_.measurements.front().source, fmt::format("too few values for {} unknowns", fitted_count()),
-         std::to_string(data_), fmt::format("{} or more", wanted));
+  check_count();
   for (std::size_t k = 0; k < request_.measurements.size(); ++k) {
     const Measurement& m = request_.measurements[k];
     const auto all = request_.measurements.begin();
@@ -166,6 +163,20 @@ CalibrationProblem::CalibrationProblem(const Atlas& atlas, CalibrationRequest re
 }
 
 CalibrationProblem::~CalibrationProblem() = default;
+
+/// A number of the material alone (hardness) is a datum: the model's error is its interval. One impact or one row of a
+/// curve is none: nothing shows whether the model describes it.
+void CalibrationProblem::check_count() const
+{
+  const auto& all = request_.measurements;
+  const bool has_number =
+      std::any_of(all.begin(), all.end(), [](const Measurement& m) { return !m.kind->x.exists(); });
+  const std::size_t wanted = std::max<std::size_t>(has_number ? 1 : 2, fitted_count());
+  if (data_ + request_.priors.size() < wanted)
+    fail(all.front().source,
+         fmt::format("too few values for {} unknown{}", fitted_count(), fitted_count() == 1 ? "" : "s"),
+         std::to_string(data_), fmt::format("{} or more; each --prior counts as one", wanted));
+}
 
 std::size_t CalibrationProblem::fitted_count() const
 {

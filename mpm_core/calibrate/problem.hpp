@@ -111,6 +111,7 @@ class CalibrationProblem
   Comparison compare(const Coordinates& q, std::size_t measurement, const CandidateMaterial& material,
                      const SphereLaws& laws) const;
   std::vector<double> likely_yield_stresses() const;
+  void check_count() const;
   /// Calls use(logarithm of how far beyond an end of the method's range a material lies, sentence on it) for
   /// each end.
   using Sentence = std::function<std::string()>;

@@ -112,6 +112,19 @@ std::string correlation_clause(const Calibration& c)
   return said;
 }
 
+/// The flow stress that a hardness shows, by its strain.
+std::string flow_clause(const CalibrationProblem& problem, const Calibration& c)
+{
+  std::string said;
+  for (const Measurement& m : problem.request().measurements)
+    if (const auto flow = flow_shown(m, c.material))
+      said += fmt::format(
+          " {} shows the flow stress at a plastic strain of {:.2g} %, {}{}.", m.source, 100 * flow->strain,
+          stress(flow->stress),
+          flow->stress > c.material.yield_stress ? "" : ": yield_stress is that, and first yield only without hardening");
+  return said;
+}
+
 /// The change by a machine that gives way, where it is more than a tenth of the interval's half.
 std::string machine_clause(const Calibration& c)
 {
@@ -158,10 +171,11 @@ std::string verdict(const CalibrationProblem& problem, const Calibration& c)
            misfit_clauses(c);
   for (std::size_t k = 0; k < c.parameters.size(); ++k)
     text.append(k > 0 ? "; " : "").append(clause(c.parameters[k]));
-  text += "." + correlation_clause(c) + misfit_clauses(c) + rate_clause(problem, c) + machine_clause(c);
+  text += "." + correlation_clause(c) + flow_clause(problem, c) + misfit_clauses(c) + rate_clause(problem, c) + machine_clause(c);
   if (c.degrees_of_freedom > 0 && c.p_value < unlikely)
     return text + fmt::format(" The data scatter more than stated (p = {:.2g}); the intervals are widened by {:.2g}.",
                               c.p_value, c.widening.deviations(0.95) / normal95);
+  if (c.degrees_of_freedom == 0) return text + " No value is left over to test the fit.";
   return c.misfits.empty() ? text + " The fit is as good as the data." : text;
 }
 

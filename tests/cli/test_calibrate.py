@@ -123,6 +123,31 @@ def test_errors():
         refused(wanted, "design", *words, "--fit", "yield_stress", "--youngs-modulus", "3.2e9", "--guess", "yield_stress=41e6", *KNOWN)
 
 
+def test_hardness():
+    """One hardness is a datum: the flow stress at the dent's strain, by name; a steel has one Y by hardness and rebound."""
+    aluminium = ["--radius", "1e-3", "--density", "2810", "--poisson-ratio", "0.33", "--youngs-modulus", "71.7e9", "--fit", "yield_stress", "--json"]
+    Path("hv175.csv").write_text("hardness_Pa\n1.716e9\n")  # Al 7075-T6
+    Path("hb150.csv").write_text("brinell_5_hardness_Pa\n1.471e9\n")
+    for file, strain in ("hv175.csv", 0.08), ("hb150.csv", 0.04):
+        found = answer("calibrate", file, *aluminium)
+        y, shown = found["parameters"]["yield_stress"], found["measurements"][0]
+        assert abs(shown["flow_strain"] / strain - 1) < 0.05 and shown["flow_stress"] == y["value"], shown
+        # yield 503 and tensile strength 572 MPa of the sheet: 786 MPa strain^0.095
+        assert y["low95"] < 786e6 * shown["flow_strain"]**0.095 < y["high95"] and y["identifiable"], y
+        assert 0.85 * y["value"] < y["low95"] and y["high95"] < 1.15 * y["value"], y
+        assert f"{file} shows the flow stress at a plastic strain of {100 * shown['flow_strain']:.2g} %" in found["verdict"], found["verdict"]
+        assert "No value is left over to test the fit" in found["verdict"], found["verdict"]
+    steel = ["--radius", "1.5e-3", "--density", "7850", "--poisson-ratio", "0.29", "--youngs-modulus", "206e9", "--fit", "yield_stress", "--json"]
+    Path("hv690.csv").write_text("hardness_Pa\n6.767e9\n")
+    Path("wc.toml").write_text("\n" + material("wc", 385500, "600e9", 0.22))
+    Path("rebound.csv").write_text("velocity_m_per_s,restitution,restitution_sd\n2.05,0.80,0.01\n2.05,0.80,0.01\n")
+    ball = ["--ball", "wc", "--materials", "wc.toml"]
+    slow, fast = answer("calibrate", "hv690.csv", *steel), answer("calibrate", "rebound.csv", *ball, *steel)
+    assert slow["parameters"]["yield_stress"]["high95"] > fast["parameters"]["yield_stress"]["low95"], (slow, fast)
+    both = answer("calibrate", "rebound.csv", "hv690.csv", *ball, *steel)
+    assert both["p_value"] > 0.05 and both["misfits"] == [], both
+
+
 def noisy_drops():
     """Eight drops of the stone, 1 % noise."""
     rows = Path(drops([0.2, 0.4, 0.8, 1.2, 1.6, 2.4, 3.2, 6])).read_text().splitlines()

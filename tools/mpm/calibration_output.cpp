@@ -18,6 +18,8 @@ nlohmann::ordered_json measurement_json(const CalibrationProblem& problem, const
   nlohmann::ordered_json out;
   out["source"] = m.source;
   out["kind"] = m.kind->name;
+  if (const auto flow = flow_shown(m, c.material))
+    out["flow_strain"] = flow->strain, out["flow_stress"] = flow->stress;
   if (m.fit_offset) out["offset_m"] = c.machines[k].offset;
   if (m.fit_compliance) {
     out["compliance_m_per_N"] = c.machines[k].compliance;

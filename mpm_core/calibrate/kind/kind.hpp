@@ -71,6 +71,8 @@ struct Kind
   /// The strength that is shown: that of fast impacts, of slow presses, or neither for certain.
   enum class Shows { neither, fast, slow } shows = Shows::neither;
   bool has_ratio_to_yield = false;  ///< Measurement::ratio_to_yield may be given
+  /// Plastic strain at which a value shows the flow stress of a material; null: the kind shows the flow curve.
+  double (*flow_strain)(const CandidateMaterial&) = nullptr;
   std::size_t smooth_errors = 1;    ///< number of Prediction::errors
 
   /// The model.
@@ -106,9 +108,16 @@ struct Kind
   std::string header() const { return (x.exists() ? x.name() + "," : "") + y.name(); }
 };
 
-/// Hardness over the flow stress: Johnson's expanding cavity for the cone that is as a Vickers pyramid (70.3
-/// degrees; Johnson 1985, eq. 6.36), 3 at most; the flow stress is that at a strain of 8 % (Tabor 1951).
-double hardness_of(const CandidateMaterial& material);
+/// The flow stress that a measurement shows, Pa, and its plastic strain.
+struct FlowShown
+{
+  double strain, stress;
+};
+/// None: the measurement shows the flow curve, or its ratio to the yield stress was given.
+std::optional<FlowShown> flow_shown(const Measurement& measurement, const CandidateMaterial& material);
+
+/// All data of a measurement are of one true value; `sd`: of the model.
+Prediction same_value(const Measurement& measurement, double value, double sd);
 
 /// Departure of single values from the smooth error, over it: half of its variance.
 inline const double rough_share = std::sqrt(0.5);
