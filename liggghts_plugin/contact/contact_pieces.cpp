@@ -54,6 +54,12 @@ const Names& tangential_names()
   return names;
 }
 
+Names& own_tangential_names()
+{
+  static Names names;
+  return names;
+}
+
 const Names& cohesion_names()
 {
   static const Names names = {
@@ -109,6 +115,11 @@ std::unique_ptr<cm::RollingModelBase> Chosen<cm::RollingModelBase>::make(
   return make_model<cm::RollingModelBase, cm::RollingModel>(Rolling{}, lmp, hsetup, contact, id);
 }
 
+void name_tangential(int id, const char* name)
+{
+  own_tangential_names()[id] = name;
+}
+
 bool is_built(const ModelIds& ids)
 {
   return contains(Tangential{}, ids.tangential) && contains(Cohesion{}, ids.cohesion) &&
@@ -138,6 +149,7 @@ std::string describe_pieces(const ModelIds& ids)
     if (found != names.end() && found->second != "off") text += fmt::format(" {} {}", kind, found->second);
   };
   add("tangential", tangential_names(), ids.tangential);
+  add("tangential", own_tangential_names(), ids.tangential);
   add("cohesion", cohesion_names(), ids.cohesion);
   add("rolling_friction", rolling_names(), ids.rolling);
   return text;

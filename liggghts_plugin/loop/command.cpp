@@ -139,7 +139,7 @@ void warn_strong_cohesion(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
     }
 }
 
-/// A deck in which a converted line was forgotten.
+/// Mostly one line of two was changed.
 void warn_of_other_tangential(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
 {
   const auto pair = setup.session->meanings.find(pairs_record);

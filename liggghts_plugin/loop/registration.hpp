@@ -49,6 +49,7 @@ template <NormalPhysics Physics, class Law>
 void add_tangential(const char* name, int id)
 {
   cm::Factory::instance().addTangentialModel(name, id);
+  name_tangential(id, name);
   refuse_other_normals(name, id, Physics::id);
   each_combination(Physics::id, [id](ModelIds ids) {
     if (!takes_own_tangential(ids)) return;
