@@ -8,6 +8,7 @@
     chute       loop.py's dense flow, 3000 spheres
     two         2016 spheres of two materials (E*/Y = 100 and 1000) and two sizes (radii 1.5 : 1) at rest; laws of `mpm table --radius-ratio 1.5`
     two_flow    the same on an incline of 23 degrees; Hertz has e = 0.1. Model mpm_nowaves: mpm with `waves off`
+    pressed     810 spheres in a periodic box, pressed from all sides to a density of 0.94 at 0.001 c*/R; a law of `mpm table` at E*/Y = 100
     N x C       N spheres of a periodic packing with C contacts a sphere, pressed together: 6 (cubic) and 3 (honeycombs)
 
 `--models plastic` is model mpm with `tangential plastic`.
@@ -22,6 +23,7 @@ the plug-in in FOLDER, which runs in turn with this one. Standard library only, 
     ninja benchmark_settled          (or: settled.py [--rounds 10] [--scenes two two_flow --sizes --models hertz mpm mpm_nowaves] [--sizes 3000 100000] [--before FOLDER])
 """
 import argparse
+import itertools
 import math
 import os
 import pathlib
@@ -35,6 +37,7 @@ import tempfile
 import loop
 
 MPIRUN = os.environ.get("GRANULAW_MPIRUN", "mpirun")
+PACKING = pathlib.Path(__file__).resolve().parents[2] / "liggghts" / "packing_30.txt"
 HOPPER = pathlib.Path(__file__).resolve().parents[3] / "examples" / "hopper"
 R, DENSITY, MODULUS = loop.RADIUS, loop.DENSITY, loop.E
 YIELD_STRESS = 2 * MODULUS / (1 - loop.NU**2) / math.pi / 1.6 * loop.ONSETS["mpm_soft"]**0.5  # thornton's onset is the law's
@@ -259,6 +262,37 @@ class Packing(Scene):
                 f"pair_style gran {' '.join(model_words(model))}\npair_coeff * *\nfix i all nve/sphere\ntimestep {loop.DT}\n" + self.end(steps))
 
 
+class Pressed(Scene):
+    """The packing of tests/liggghts/test_plastic_shear.py, 27 times."""
+    one_law, density = False, (0.58, 0.94)
+
+    def __init__(self, name):
+        self.points = [[float(x) for x in line.split()] for line in PACKING.read_text().splitlines()]
+        self.side = (len(self.points) * 4 * math.pi / 3 / self.density[0]) ** (1 / 3)  # of an image, over R
+        sound = math.sqrt(MODULUS / (1 - loop.NU**2) / DENSITY)
+        self.rate, self.dt = 0.001 * sound / R, 0.01 * R / sound
+        super().__init__(name, round((1 - (self.density[0] / self.density[1]) ** (1 / 3)) / self.rate / self.dt))
+
+    def prepare(self, folder, program, model):
+        if (folder / "pressed.h5").exists():
+            return
+        box = 3 * self.side * R
+        places = [[(x % self.side + k * self.side) * R for x, k in zip(point, image)]
+                  for point in self.points for image in itertools.product(range(3), repeat=3)]
+        rows = [[repr(x) for x in at] + [repr(self.rate * (box / 2 - x)) for x in at] + ["0"] * 3 for at in places]
+        loop.write_data(folder / "pressed.data", rows, (box,) * 3)
+        (folder / "pressed.toml").write_text(f"[material.powder]\ndensity = {DENSITY}\nyoungs_modulus = {MODULUS}\npoisson_ratio = {loop.NU}\n"
+                                             f"yield_stress = {MODULUS / (1 - loop.NU**2) / 100}\n")
+        subprocess.run([MPM, "table", "pressed.toml", "--depth", "0.5", "-o", "pressed.h5"], cwd=folder, check=True, capture_output=True)
+
+    def deck(self, program, model, steps):
+        words = " ".join(model_words(model)).replace("mpm.h5", "pressed.h5")
+        return ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary p p p\nnewton off\n"
+                f"communicate single vel yes\nread_data pressed.data\nneighbor {0.4 * R} bin\nneigh_modify delay 0\n" + properties(model) +
+                f"pair_style gran {words}\npair_coeff * *\nfix i all nve/sphere\nfix d all deform 1 " +
+                " ".join(f"{a} erate {-self.rate!r}" for a in "xyz") + f" remap v units box\ntimestep {self.dt!r}\n" + self.end(steps))
+
+
 class Hopper(Scene):
     def command(self, program, model, **more):
         text = ""
@@ -323,7 +357,7 @@ def measure(folder, scene, programs, models, rounds, error):
 def scenes(options):
     found = {"rest": Rest("rest", 2000), "frozen": Frozen("frozen", 2000, "history"), "frozen_off": Frozen("frozen_off", 2000, "off"),
              "frozen_all": Frozen("frozen_all", 2000, "history cohesion sjkr rolling_friction epsd2"),
-             "hopper": Hopper("hopper", 2000), "chute": Chute("chute", 1000), "two": Two("two", 2000, "0 0 -1"),
+             "hopper": Hopper("hopper", 2000), "chute": Chute("chute", 1000), "pressed": Pressed("pressed"), "two": Two("two", 2000, "0 0 -1"),
              "two_flow": Two("two_flow", 2000, f"{loop.ANGLE[0]} 0 {-loop.ANGLE[1]}")}
     for name in options.scenes:
         yield found[name]
