@@ -35,6 +35,8 @@ class ContactCounts
   /// approach speed at first touch (`contactMap on`).
   void keep_radius_at(int offset) { radius_offset_ = offset; }
   void keep_speed_at(int offset) { speed_offset_ = offset; }
+  /// The same of the largest overlap, where a tangential law changes the one that the normal law keeps.
+  void keep_largest_at(int offset) { largest_offset_ = offset; }
 
   /// Part of a contact that this rank accounts for, 1 or 0.5: see ContactStatistics. Without a branch: which
   /// neighbours are ghosts no processor can foresee.
@@ -44,7 +46,20 @@ class ContactCounts
     return 0.5 + 0.5 * static_cast<double>(whole);
   }
 
-  /// A step that takes the contact deeper than it ever was: from `delta_max`, which is 0 if it begins.
+  /// A step that takes the contact to a larger overlap than it ever had: from `largest`, which is 0 if it begins.
+  void reach(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double largest) const
+  {
+    ContactStatistics::Pair& counts = *entry.counts;
+    const double weight = this->weight(contact), delta = contact.deltan;
+    if (delta > counts.overlap_max * r_eff) counts.overlap_max = delta / r_eff;
+    if (delta > near_edge * entry.largest_overlap * r_eff) [[unlikely]] {
+      if (largest <= near_edge * entry.largest_overlap * r_eff) counts.near += weight;
+      if (delta > entry.largest_overlap * r_eff && largest <= entry.largest_overlap * r_eff) counts.past += weight;
+    }
+    move_in_histogram(counts, contact.contact_history, largest, delta, r_eff, weight);
+  }
+
+  /// A step that takes the law deeper than it ever was: from `delta_max`, which is 0 if it begins.
   /// `kept`: of the law.
   void deepen(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double impact_overlap,
               double delta_max, double* kept) const
@@ -54,12 +69,7 @@ class ContactCounts
     bool sudden = false;
     if (delta_max == 0.0) [[unlikely]]
       sudden = begin(counts, contact, entry, r_eff, weight);
-    if (delta > counts.overlap_max * r_eff) counts.overlap_max = delta / r_eff;
-    if (delta > near_edge * entry.largest_overlap * r_eff) [[unlikely]] {
-      if (delta_max <= near_edge * entry.largest_overlap * r_eff) counts.near += weight;
-      if (delta > entry.largest_overlap * r_eff && delta_max <= entry.largest_overlap * r_eff)
-        counts.past += weight;
-    }
+    if (largest_offset_ < 0) reach(contact, entry, r_eff, delta_max);
     // Hertz's frequency grows as R* delta/m*^2 does: only a contact that leads by this measure is looked at
     if (r_eff * delta > counts.hardest * contact.meff * contact.meff) [[unlikely]] {
       counts.hardest = r_eff * delta / (contact.meff * contact.meff);
@@ -68,7 +78,6 @@ class ContactCounts
                    entry.contact.stiffness(r_eff, delta, impact_overlap) / contact_mass(*bodies_, contact));
       counts.frequency2 = std::max(counts.frequency2, counts.run_frequency2);
     }
-    move_in_histogram(counts, contact.contact_history, delta_max, delta, r_eff, weight);
     if (sudden) [[unlikely]] {  // no motion paid for what it holds
       counts.sudden += weight;
       counts.brought += weight * entry.contact.stored_energy(r_eff, delta, delta, impact_overlap);
@@ -85,11 +94,6 @@ class ContactCounts
   void change_depth(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double impact_overlap,
                     double from, double to) const
   {
-    const double weight = this->weight(contact);
-    if (to < from)
-      change_bin(*entry.counts, contact.contact_history, from, to, r_eff, weight);
-    else
-      move_in_histogram(*entry.counts, contact.contact_history, from, to, r_eff, weight);
     if (!energy_) return;
     const double held = entry.contact.stored_energy(r_eff, contact.deltan, to, impact_overlap) -
                         entry.contact.stored_energy(r_eff, contact.deltan, from, impact_overlap);
@@ -97,7 +101,7 @@ class ContactCounts
     energy_->share(contact, EnergyTally::dissipated, lost, lmp_->atom->nlocal);
     energy_->share(contact, EnergyTally::stored, held, lmp_->atom->nlocal);
     energy_->share(contact, EnergyTally::other_work, -(lost + held), lmp_->atom->nlocal);  // the shear's work, booked there
-    entry.counts->other_work -= weight * held;
+    entry.counts->other_work -= this->weight(contact) * held;
   }
 
   /// A step that takes the contact from the table's end `by` deeper, at the law's force there. `first`: the first one.
@@ -153,7 +157,7 @@ class ContactCounts
   void take_out(ContactStatistics::Pair& counts, const double* history, double delta_max, double r_eff,
                 double weight) const
   {
-    count(counts, history, delta_max, radius_at_largest(history, r_eff), -weight);
+    count(counts, history, largest_offset_ < 0 ? delta_max : history[largest_offset_], radius_at_largest(history, r_eff), -weight);
   }
 
  private:
@@ -236,7 +240,7 @@ class ContactCounts
   LAMMPS_NS::LAMMPS* lmp_ = nullptr;
   const Bodies* bodies_ = nullptr;
   const EnergyTally* energy_ = nullptr;  // null: energy off
-  int radius_offset_ = -1, speed_offset_ = -1;
+  int radius_offset_ = -1, speed_offset_ = -1, largest_offset_ = -1;
 };
 
 }  // namespace granulaw::plugin

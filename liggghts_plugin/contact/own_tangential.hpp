@@ -15,11 +15,17 @@ class OwnTangential : public cm::TangentialModelBase
 
  public:
   OwnTangential(LAMMPS* lmp, LIGGGHTS::IContactHistorySetup* hsetup, cm::ContactModelBase* contact)
-      : TangentialModelBase(lmp, hsetup, contact), offset_(add_history(*hsetup, Law::keeps))
+      : TangentialModelBase(lmp, hsetup, contact),
+        offset_(add_history(*hsetup, Law::keeps)),
+        largest_offset_(hsetup->add_history_value("largest_overlap", "0"))
   {
   }
   /// The contact's normal model, which is called before this one.
-  void follow(PlasticModel<Physics>& normal) { normal_ = &normal; }
+  void follow(PlasticModel<Physics>& normal)
+  {
+    normal_ = &normal;
+    normal.count_overlaps_at(largest_offset_);
+  }
 
   void registerSettings(Settings&) override {}
   void postSettings(LIGGGHTS::IContactHistorySetup*, cm::ContactModelBase*) override {}
@@ -35,9 +41,14 @@ class OwnTangential : public cm::TangentialModelBase
     if (s.contact_flags) *s.contact_flags |= CONTACT_TANGENTIAL_MODEL;
     const auto& entry = normal_->entry_of(s);
     const Law& law = laws_[normal_->place(entry)];
+    double& largest = s.contact_history[largest_offset_];
     const double r_eff = effective_radius(s), shorter = shorter_lever(s, law);
     ContactMotion moves = motion(s, r_eff, shorter);
     moves.turn = rolling(s);
+    if (s.deltan > largest && s.computeflag && s.shearupdate) {
+      normal_->reach(s, entry, r_eff, largest);
+      largest = s.deltan;
+    }
     double* const depth = normal_->kept_of(s.contact_history);
     const double before = *depth;
     double normal_force = s.Fn;
@@ -51,7 +62,9 @@ class OwnTangential : public cm::TangentialModelBase
   void surfacesClose(cm::SurfacesCloseData& contact, ForceData&, ForceData&) override
   {
     if (contact.contact_flags) *contact.contact_flags &= ~CONTACT_TANGENTIAL_MODEL;
-    if (contact.contact_history) std::fill_n(contact.contact_history + offset_, values_of(Law::keeps), 0.0);
+    if (!contact.contact_history) return;
+    std::fill_n(contact.contact_history + offset_, values_of(Law::keeps), 0.0);
+    contact.contact_history[largest_offset_] = 0.0;
   }
   void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) override {}
   void endPass(SurfacesIntersectData&, ForceData&, ForceData&) override {}
@@ -128,7 +141,7 @@ class OwnTangential : public cm::TangentialModelBase
   PlasticModel<Physics>* normal_ = nullptr;
   std::vector<Law> laws_;  // by PlasticModel::place
   double** friction_ = nullptr;
-  int offset_;
+  int offset_, largest_offset_;
 };
 
 }  // namespace granulaw::plugin

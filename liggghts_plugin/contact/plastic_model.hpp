@@ -191,6 +191,12 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   std::size_t place(const Entry& entry) const { return pairs_.place(entry); }
   /// True of the contact at hand if its overlap and depth are held at the law's end until it parts; asked for once.
   bool was_held() { return std::exchange(held_, false); }
+  /// For the statistics: the largest overlap stands at this place of the history, which the tangential law keeps by reach().
+  void count_overlaps_at(int offset) { counts_.keep_largest_at(offset); }
+  void reach(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double largest) const
+  {
+    counts_.reach(sidata, entry, r_eff, largest);
+  }
   /// Part of the overlap that belongs to the real contact.
   double per_stretch() const { return 1.0 / stretch_; }
   bool rigid_wall() const { return setup_->wall && !setup_->options.deformable_wall; }

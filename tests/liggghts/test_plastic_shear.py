@@ -250,6 +250,19 @@ class TestPlasticShear(Deck):
         self.refused(by_rate, f"law file {rated}: 'powder' depends on the strain rate: 'tangential plastic' needs one flow stress")
         self.run_deck(by_rate.replace("tangential plastic", "tangential history"))
 
+    @mark.parametrize("angle, friction", ((45, 0.3), (70, 0.6), (80, 0.6)))
+    def test_the_statistics_have_the_overlaps_themselves(self, angle, friction):
+        """Shear takes the law's depth ahead of the overlap, from a fifth up to seven times."""
+        deck = self.thrown(13, angle, friction, 100, words="stats s.json").replace("run 250\n", "variable z equal z[1]\nthermo_style custom step v_z\nthermo 1\nrun 250\n", 1)
+        heights = [float(row[1]) for row in re.finditer(r"^\s*\d+\s+([-+.\de]+)\s*$", self.run_deck(deck), re.M)]
+        largest = (R - min(heights)) / R
+        found = json.loads((self.folder / "s.json").read_text())["wall"]
+        assert found["overlap_over_radius_max"] == approx(largest, abs=1e-7)  # heights have eight digits
+        histogram = found["largest_overlap_over_radius"]
+        (place,) = [k for k, count in enumerate(histogram["count"]) if count]
+        edges = histogram["lower_edge"]
+        assert edges[place] <= largest < edges[place] * 10 ** (1 / histogram["bins_per_decade"])
+
     def test_another_law_at_walls_is_named(self):
         deck = self.thrown(1.0, 45, 0.3, 50)
         assert "different laws" not in self.run_deck(deck)
