@@ -7,7 +7,7 @@
 #include "liggghts_plugin/books/energy_tally.hpp"
 #include "liggghts_plugin/contact/contact_pieces.hpp"
 #include "liggghts_plugin/contact/own_tangential.hpp"
-#include "liggghts_plugin/contact/plastic_model.hpp"
+#include "liggghts_plugin/contact/normal_host.hpp"
 
 namespace granulaw::plugin {
 
@@ -126,7 +126,7 @@ class ComposedContact final : public cm::ContactModelBase
   LAMMPS* lmp_;
   ModelIds ids_;
   Fixed<cm::SurfaceModel<surface>> surface_;
-  Fixed<PlasticModel<Physics>> normal_;
+  Fixed<NormalHost<Physics>> normal_;
   Cohesion cohesion_;
   Tangential tangential_;
   Rolling rolling_;

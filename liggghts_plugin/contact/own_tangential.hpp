@@ -1,7 +1,7 @@
 #pragma once
 
 #include "contact/tangential.hpp"
-#include "liggghts_plugin/contact/plastic_model.hpp"
+#include "liggghts_plugin/contact/normal_host.hpp"
 
 namespace granulaw::plugin {
 
@@ -21,7 +21,7 @@ class OwnTangential : public cm::TangentialModelBase
   {
   }
   /// The contact's normal model, which is called before this one.
-  void follow(PlasticModel<Physics>& normal)
+  void follow(NormalHost<Physics>& normal)
   {
     normal_ = &normal;
     normal.count_overlaps_at(largest_offset_);
@@ -138,8 +138,8 @@ class OwnTangential : public cm::TangentialModelBase
     }
   }
 
-  PlasticModel<Physics>* normal_ = nullptr;
-  std::vector<Law> laws_;  // by PlasticModel::place
+  NormalHost<Physics>* normal_ = nullptr;
+  std::vector<Law> laws_;  // by NormalHost::place
   double** friction_ = nullptr;
   int offset_, largest_offset_;
 };

@@ -106,7 +106,7 @@ class PairTable
           resolve_types(physics, setup, sizes, i, j);
         } catch (const granulaw::Error&) {
           if (types.can_meet(i, j, is_wall)) throw;
-          continue;  // PlasticModel::beyond_table says so if such particles meet after all
+          continue;  // NormalHost::beyond_table says so if such particles meet after all
         }
         in_shear_[pair_of(i, j)] = in_shear(types, i, is_wall && !setup.options.deformable_wall ? 0 : j, tangential.damping);
         each_entry(i, j, [&](Entry& entry) {

@@ -41,10 +41,10 @@ inline int add_history(LIGGGHTS::IContactHistorySetup& history, std::span<const 
 /// and the contact statistics' overlaps are the deck's own, S times the real ones; work needs no conversion,
 /// because F(d/S)/S does the same work to S times the overlap. X stays the unstretched law's.
 template <NormalPhysics Physics>
-class PlasticModel : public NormalModelBase, public ContactInquiry
+class NormalHost : public NormalModelBase, public ContactInquiry
 {
  public:
-  PlasticModel(LAMMPS* lmp, IContactHistorySetup* hsetup, ContactModelBase* cmb)
+  NormalHost(LAMMPS* lmp, IContactHistorySetup* hsetup, ContactModelBase* cmb)
       : NormalModelBase(lmp, hsetup, cmb)
   {
     history_offset_ = add_history(*hsetup, State::keeps);
@@ -253,7 +253,7 @@ class PlasticModel : public NormalModelBase, public ContactInquiry
   /// Books that advance_normal requires in the steps that take a contact deeper than it was.
   struct Books
   {
-    const PlasticModel& model;
+    const NormalHost& model;
     const SurfacesIntersectData& sidata;
     const Entry& entry;
     double r_eff;
