@@ -305,6 +305,21 @@ class TestTime(Convert):
         assert said["not_converted"] == []
         run(LAUNCHER, "-in", "in.deck", "-log", "none", cwd=self.out)
 
+    def test_loops_keep_their_time(self):
+        """A loop over single steps follows the time step; one whose runs are longer keeps its number of passes."""
+        start = "variable dt equal 2e-5\nvariable n equal 0.0002/${dt}\n" + DECK + self.FAST.replace("timestep 2e-5", "timestep ${dt}")
+        for steps, time in ((1, 0.0002), (60, 0.012), ("${n}", 0.002)):
+            self.write("in.deck", start + f"variable i loop ${{n}}\nlabel again\nrun {steps}\nnext i\njump SELF again\n")
+            _, said = self.convert()
+            assert said["steps_factor"] > 1
+            assert self.run_converted(10**6)["time"] == approx(time, rel=0.02), steps
+            assert said["not_converted"] == []
+
+    def test_runs_of_single_steps_are_named(self):
+        self.write("in.deck", DECK + self.FAST + "variable i loop 100\nlabel again\nrun 1\nnext i\njump SELF again\n")
+        _, said = self.convert()
+        assert re.search("the runs last .* s in all, 0.002 s in the original", said["not_converted"][0])
+
     def test_a_step_by_a_formula(self):
         self.write("in.deck", "variable tenth equal 2e-4\nvariable dt equal ${tenth}*0.1\n" + DECK + self.FAST.replace("timestep 2e-5", "timestep ${dt}") + "variable n equal 0.01/${dt}\nrun ${n}\n")
         now, said = self.convert()

@@ -100,6 +100,20 @@ deck::Destination choose_folder(const ConvertRequest& r, const deck::Scene& scen
   return deck::open_destination(scene, folder);
 }
 
+/// s, of all runs.
+double duration(const deck::Scene& scene)
+{
+  double sum = 0;
+  for (const deck::Run& run : scene.runs) sum += run.steps * run.time_step;
+  return sum;
+}
+
+/// To 2 %: counts are rounded.
+bool lasts_as_long(const deck::Scene& now, const deck::Scene& before)
+{
+  return std::abs(duration(now) - duration(before)) <= 0.02 * duration(before);
+}
+
 /// Runs that last another time than the original's, and insertions that bring in other numbers.
 void compare_runs(deck::Converted& c, const deck::Scene& now)
 {
@@ -108,9 +122,12 @@ void compare_runs(deck::Converted& c, const deck::Scene& now)
     c.result.left.push_back(fmt::format("the insertions bring in {:.0f} particles, {:.0f} in the original", brings, brought));
   const std::vector<deck::Run>&before = c.planned.scene.runs, &after = now.runs;
   if (before.size() != after.size()) {
-    c.result.left.push_back(fmt::format("the converted deck has {} runs, the original {}", after.size(), before.size()));
+    if (!lasts_as_long(now, c.planned.scene))
+      c.result.left.push_back(fmt::format("the converted deck has {} runs, the original {}", after.size(), before.size()));
     return;
   }
+  if (!lasts_as_long(now, c.planned.scene))
+    c.result.left.push_back(fmt::format("the runs last {:.4g} s in all, {:.4g} s in the original", duration(now), duration(c.planned.scene)));
   std::set<std::string> told;
   for (std::size_t k = 0; k < before.size(); ++k) {
     const double was = before[k].steps * before[k].time_step, is = after[k].steps * after[k].time_step;
@@ -138,26 +155,35 @@ std::optional<deck::Scene> read_probe(const deck::Converted& c)
   return probe;
 }
 
-/// The same; where more than counts of steps would follow, or LIGGGHTS refuses the deck, variables stay as they are.
-std::optional<deck::Scene> choose_what_follows(deck::Converted& c)
+/// The deck by the choices made, with its includes, as LIGGGHTS reads it.
+deck::Scene write_deck(deck::Converted& c, const std::optional<deck::Scene>& probe)
+{
+  const deck::Scene& scene = c.planned.scene;
+  c.result = deck::convert(scene, c.conversion, probe ? &*probe : nullptr);
+  deck::write_files(scene, c.folder, c.result.files);
+  return deck::read_scene(c.deck.string(), scene.presets);
+}
+
+/// The same where variables follow the time step; nothing: more than counts of steps would follow, the runs would last
+/// another time, or LIGGGHTS refuses the deck.
+std::optional<deck::Scene> write_following(deck::Converted& c)
 {
   c.conversion.variables_follow = true;
   try {
     const auto probe = read_probe(c);
-    if (!probe || deck::only_counts_follow(c.planned.scene, *probe)) return probe;
+    if (probe && !deck::only_counts_follow(c.planned.scene, *probe)) return {};
+    deck::Scene now = write_deck(c, probe);
+    if (!probe || lasts_as_long(now, c.planned.scene)) return now;
   } catch (const Error&) {
   }
-  c.conversion.variables_follow = false;
-  return read_probe(c);
+  return {};
 }
 
-/// The converted deck and its includes, by the choices made.
-void write_deck(deck::Converted& c)
+deck::Scene write_deck(deck::Converted& c)
 {
-  const deck::Scene& scene = c.planned.scene;
-  const std::optional<deck::Scene> probe = choose_what_follows(c);
-  c.result = deck::convert(scene, c.conversion, probe ? &*probe : nullptr);
-  deck::write_files(scene, c.folder, c.result.files);
+  if (auto now = write_following(c)) return *std::move(now);
+  c.conversion.variables_follow = false;
+  return write_deck(c, read_probe(c));
 }
 
 deck::Converted convert(ConvertRequest& r)
@@ -180,12 +206,10 @@ deck::Converted convert(ConvertRequest& r)
   c.conversion.law = c.destination.law;
   c.deck = c.folder / fs::path(r.deck).filename();
   c.restarts = deck::copy_data(scene, c.destination);
-  write_deck(c);
-  deck::Scene now = deck::read_scene(c.deck.string(), presets);
+  deck::Scene now = write_deck(c);
   if (now.restart_stretch && std::abs(*now.restart_stretch / c.conversion.stretch - 1) > 1e-6) {
     c.step = deck::continue_stretch(c.conversion, c.planned, *now.restart_stretch);
-    write_deck(c);
-    now = deck::read_scene(c.deck.string(), presets);
+    now = write_deck(c);
   }
   deck::require_shared_files(c.destination);
   for (const deck::OtherDensity& other : deck::other_densities(scene, c.planned.options))
