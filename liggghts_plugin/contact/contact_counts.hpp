@@ -47,7 +47,7 @@ class ContactCounts
   }
 
   /// A step that takes the contact to a larger overlap than it ever had: from `largest`, which is 0 if it begins.
-  void reach(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double largest) const
+  [[gnu::always_inline]] void reach(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double largest) const
   {
     ContactStatistics::Pair& counts = *entry.counts;
     const double weight = this->weight(contact), delta = contact.deltan;
@@ -69,7 +69,8 @@ class ContactCounts
     bool sudden = false;
     if (delta_max == 0.0) [[unlikely]]
       sudden = begin(counts, contact, entry, r_eff, weight);
-    if (largest_offset_ < 0) reach(contact, entry, r_eff, delta_max);
+    if (largest_offset_ < 0) [[likely]]
+      reach(contact, entry, r_eff, delta_max);
     // Hertz's frequency grows as R* delta/m*^2 does: only a contact that leads by this measure is looked at
     if (r_eff * delta > counts.hardest * contact.meff * contact.meff) [[unlikely]] {
       counts.hardest = r_eff * delta / (contact.meff * contact.meff);
