@@ -1,5 +1,5 @@
 // The estimate of what the pair rule costs, against the two-body collisions that were measured
-// (tests/validation/pairs.csv, made by pairs_study.cpp).
+// (tests/validation/pairs.csv, docs/evidence/pairs.md).
 #include "atlas/unlike_pair.hpp"
 
 #include <gtest/gtest.h>
@@ -90,7 +90,7 @@ TEST(ReductionError, IsBoundedForMixtures)
   EXPECT_EQ(over, 0);
 }
 
-/// A pair's own law, made at equal radii, at others (tests/validation/pair_law_radii.py): what `mpm table
+/// A pair's own law, made at equal radii, at others (tests/validation/pair_law_radii.csv): what `mpm table
 /// --radius-ratio` states of it.
 TEST(ReductionError, OfALawOfEqualRadiiIsBoundedAtOthers)
 {

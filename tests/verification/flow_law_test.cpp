@@ -183,6 +183,24 @@ TEST(FlowLaws, HardeningAtLargeStrain)
     }
 }
 
+/// Under pressure, too, the Cauchy stress is the law's: the Kirchhoff deviator reaches J sigma_y.
+TEST(FlowLaws, FlowAtTheirCauchyStress)
+{
+  constexpr double squeeze = 0.9, jacobian = squeeze * squeeze * squeeze;
+  for (const Case& c : hardening_cases()) {
+    Body b = ring(material(c.hardening));
+    for (int k = 0; k <= 200; ++k) {
+      const double lr = squeeze * std::exp(0.0005 * k), lz = squeeze * std::exp(-0.001 * k);
+      for (int i = 0; i < b.nodes(); ++i)
+        b.u_i(i, 0) = (lr - 1) * b.reference().place_i(i, 0), b.u_i(i, 1) = (lz - 1) * b.reference().place_i(i, 1);
+      kernels(b).points_to_grid(b);
+    }
+    const double ln_j = std::log(jacobian), deviatoric = b.state.elastic_energy_p[0] / b.reference().volume_p[0] - 0.5 * bulk * ln_j * ln_j;
+    EXPECT_GT(b.state.plastic_strain_p[0], 0.1);
+    EXPECT_NEAR(std::sqrt(6 * shear * deviatoric) / (jacobian * c.stress(b.state.plastic_strain_p[0])), 1, 1e-8) << c.name;  // as q above
+  }
+}
+
 /// Constant rate of loading t' : 3 G (t - ep) = sigma_y(ep) g(ep'). The kernel takes the rate as increment
 /// over step (backward Euler). Each step must solve its equation; as the steps shrink, the path must tend to
 /// the solution of the differential equation at first order.

@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "base/larger.hpp"
-#include "elliptic_contact.hpp"
 #include "solver/runs.hpp"
 #include "solver/shape/rotation.hpp"
 #include "solver/shape/shapes.hpp"
@@ -68,6 +67,49 @@ RunResult thrown(const Particle& p, double velocity, const std::array<double, 3>
   return impact(p, t, {}, in_space(options));
 }
 
+/// Hertz's contact over an ellipse on a rigid wall (Johnson 1985, eqs 4.24 to 4.28). With R_e = sqrt(R' R''):
+///     sqrt(a b) = (3 P R_e/(4 E*))^(1/3) F1(e)        delta = (9 P^2/(16 E*^2 R_e))^(1/3) F2(e)
+class EllipticContact
+{
+ public:
+  explicit EllipticContact(const PrincipalRadii& radii, double e_star) : radius_(std::sqrt(radii.flatter * radii.sharper)), e_star_(e_star)
+  {
+    double low = 1e-7, high = 1;  // of b/a: eq. 4.28, whose right side falls as b/a rises
+    for (int step = 0; step < 60; ++step) {
+      ratio_ = std::sqrt(low * high);
+      (flat() / sharp() > radii.flatter / radii.sharper ? low : high) = ratio_;
+    }
+    widening_ = std::cbrt(4 / (M_PI * (1 - ratio_ * ratio_)) * std::pow(ratio_, 1.5) * std::sqrt(flat() * sharp()));
+    approach_ = 2 / M_PI * std::sqrt(ratio_) * k() / widening_;
+  }
+  double force(double overlap) const { return 4.0 / 3.0 * e_star_ * std::sqrt(radius_) * std::pow(overlap / approach_, 1.5); }
+  double semi_major(double force) const { return widening_ * std::cbrt(3 * force * radius_ / (4 * e_star_)) / std::sqrt(ratio_); }
+  double semi_minor(double force) const { return semi_major(force) * ratio_; }
+
+ private:
+  double k() const { return std::comp_ellint_1(std::sqrt(1 - ratio_ * ratio_)); }
+  double e() const { return std::comp_ellint_2(std::sqrt(1 - ratio_ * ratio_)); }
+  double flat() const { return e() / (ratio_ * ratio_) - k(); }
+  double sharp() const { return k() - e(); }
+  double radius_, e_star_, ratio_ = 1, widening_ = 1, approach_ = 1;
+};
+
+/// Timoshenko and Goodier, Theory of Elasticity, section 140: a = m h, b = n h with h = (3 P/(4 E* (A + B)))^(1/3), over theta,
+/// cos(theta) = (B - A)/(A + B). Printed to three digits.
+TEST(EllipticContact, TabulatedAxes)
+{
+  const double table[][3] = {{30, 2.731, 0.493}, {45, 1.926, 0.604}, {60, 1.486, 0.717}, {75, 1.202, 0.846}};
+  for (const auto& [theta, m, n] : table) {
+    const double cosine = std::cos(theta * M_PI / 180);                                   // A + B = 1
+    const EllipticContact contact({1 / (1 + cosine), 1 / (1 - cosine), {}}, 0.75);  // h = 1 at P = 1
+    EXPECT_NEAR(contact.semi_major(1), m, 2e-3);
+    EXPECT_NEAR(contact.semi_minor(1), n, 2e-3);
+    // the approach of one contact with its pressures, eq. 4.27: delta = 3 P K/(2 pi a E*)
+    const double q = contact.semi_minor(1) / contact.semi_major(1), delta = 1.5 * std::comp_ellint_1(std::sqrt(1 - q * q)) / (M_PI * contact.semi_major(1) * 0.75);
+    EXPECT_NEAR(contact.force(delta), 1, 1e-9);
+  }
+}
+
 /// Largest force of a frictionless elastic impact by Hertz (Johnson 1985, eq. 11.25), and the ellipse then.
 /// Off the axis the contact moves the mass 1/(1/m + (r x n)^2/I).
 struct HertzImpact
@@ -85,7 +127,7 @@ struct HertzImpact
     const double mass =
         density / (1 / m.volume + lever.dot(m.inertia.ldlt().solve(lever)));  // of density 1 kg/m^3
     const PrincipalRadii radii = solid->principal_radii(n);
-    const EllipticContact contact({radii.flatter, radii.sharper}, e_star);
+    const EllipticContact contact(radii, e_star);
     const double stiffness = contact.force(1e-6) / 1e-9;  // F = k delta^1.5
     force = std::pow(stiffness, 0.4) * std::pow(1.25 * mass * velocity * velocity, 0.6);
     major = contact.semi_major(force), minor = contact.semi_minor(force);
@@ -97,7 +139,7 @@ struct HertzImpact
 std::array<double, 2> axes_over_hertz(const RunResult& r, const Particle& p, const Vector3& direction)
 {
   const PrincipalRadii radii = shape_of(p)->principal_radii(direction.normalized());
-  const EllipticContact contact({radii.flatter, radii.sharper}, e_star);
+  const EllipticContact contact(radii, e_star);
   std::array<double, 2> sum{};
   int count = 0;
   for (const PlaneSample& s : r.planes.front().samples)

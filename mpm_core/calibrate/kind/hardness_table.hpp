@@ -5,7 +5,7 @@
 
 namespace granulaw {
 
-// Made by tests/validation/hardness_table.py from indentations by the solver (docs/evidence/hardness.md).
+// Made from indentations by the solver (docs/evidence/hardness.md).
 
 /// Over the logarithmic slope of the flow curve and the logarithm of the stiffness, E* over the flow stress.
 template <std::size_t Exponents, std::size_t Stiffnesses, std::size_t Places = 1>
