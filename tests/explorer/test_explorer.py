@@ -1,4 +1,4 @@
-"""test_explorer.py PAGE MPM [--cases N] [--seed N] [--launcher PROGRAM] [--pictures FOLDER] [--firefox]: the interactive page in Chromium against `mpm table` and `mpm law --json`.
+"""test_explorer.py PAGE MPM [--cases N] [--seed N] [--launcher PROGRAM] [--times]: the interactive page in Chromium against `mpm table` and `mpm law --json`.
 
 Bodies agree to 1e-9 (another compiler and another C library round differently). Composed pairs agree to 1e-5: there rounding decides how often
 a search goes on, and e moves by 4e-6 when E changes by one part in 1e15.
@@ -9,14 +9,13 @@ import math
 import os
 import random
 import re
-import shutil
 import statistics
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from browser import Browser, Firefox, missing
+from browser import Browser, missing
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples/calibrate"
 LATER = "await new Promise((done) => setTimeout(done, 600));"  # fit and bed follow a change after 120 ms
@@ -379,37 +378,15 @@ def times(browser):
     print(f"first curve {first:.0f} ms; median of 100 changes: speed {wall[0]:.0f} ms, material {wall[1]:.0f} ms, material of a pair {pair:.0f} ms")
 
 
-def in_firefox(arguments):
-    if not shutil.which("firefox-esr") or not arguments.page.exists():
-        print("skipped: no firefox-esr (Debian), or no page")
-        return 77
-    failures = Failures()
-    with Firefox() as browser:
-        browser.open(arguments.page.resolve().as_uri())
-        browser.run("await granulaw.ready")
-        if arguments.times:
-            browser.run("await new Promise((done) => setTimeout(done, 500))")
-            times(browser)
-        refusals(browser, arguments.mpm, failures)
-        compare(browser, arguments.mpm, arguments.cases, arguments.seed, failures)
-    for failure in failures:
-        print(f"FAILED: {failure}")
-    return 1 if failures else 0
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("page", type=Path)
     parser.add_argument("mpm")
     parser.add_argument("--cases", type=int, default=30)
     parser.add_argument("--seed", type=int, default=55)
-    parser.add_argument("--pictures", type=Path)
     parser.add_argument("--launcher", help="liggghts-mpm: it runs the deck that the page wrote")
     parser.add_argument("--times", action="store_true")
-    parser.add_argument("--firefox", action="store_true", help="the numbers and refusals alone, in Firefox")
     arguments = parser.parse_args()
-    if arguments.firefox:
-        return in_firefox(arguments)
     if why := missing():
         print(f"skipped: {why}")
         return 77
@@ -423,20 +400,6 @@ def main():
         if arguments.times:
             browser.run("await new Promise((done) => setTimeout(done, 500))")
             times(browser)
-            browser.open("about:blank")
-            browser.open(page)
-            browser.run("await granulaw.ready")
-        if arguments.pictures:
-            arguments.pictures.mkdir(parents=True, exist_ok=True)
-            for width, height in ((1560, 980), (900, 1200), (390, 844)):
-                browser.resize(width, height)
-                browser.run("dispatchEvent(new Event('resize')); await new Promise((done) => setTimeout(done, 600))")
-                browser.picture(arguments.pictures / f"explorer-{width}.png")
-            browser.command("Emulation.clearDeviceMetricsOverride", {})
-            browser.dark(True)
-            browser.run("document.querySelector('[value=sphere]').click(); document.getElementById('keep').click(); await new Promise((done) => setTimeout(done, 600))")
-            browser.picture(arguments.pictures / "explorer-dark.png")
-            browser.dark(False)
             browser.open("about:blank")
             browser.open(page)
             browser.run("await granulaw.ready")
