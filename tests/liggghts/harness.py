@@ -93,6 +93,27 @@ class Deck(InFolder):
         return found
 
 
+    def frames(self, name="end.dump"):
+        """Columns of each frame of a text dump by particle id: {id: [numbers]}."""
+        found, lines = [], (self.folder / name).read_text().splitlines()
+        for k, line in enumerate(lines):
+            if line.startswith("ITEM: NUMBER OF"):
+                count = int(lines[k + 1])
+            elif line.startswith(("ITEM: ATOMS", "ITEM: ENTRIES")):
+                rows = [row.split() for row in lines[k + 1:k + 1 + count]]
+                found.append({int(row[0]): [float(w) for w in row[1:]] for row in rows})
+        return found
+
+    def last_frame(self, name="end.dump"):
+        return self.frames(name)[-1]
+
+
+def dump(what, every=1, name="end"):
+    """A dump of the columns `what` (all of them numbers) at full precision, id first."""
+    form = " ".join(["%d"] + ["%.17g"] * len(what.split()))
+    return f'dump {name} all custom {every} {name}.dump id {what}\ndump_modify {name} format "{form}"\n'
+
+
 def mpm_law(law, pair, speed, radius, radius2=None):
     """A collision as `mpm law` integrates it."""
     words = ["--radius2", repr(radius2)] if radius2 else []

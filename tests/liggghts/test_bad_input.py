@@ -18,27 +18,17 @@ class TestBadInput(Deck):
     def test_the_deck_is_good_otherwise(self):
         self.run_deck(self.deck(self.good()))
 
-    def test_law_file(self):
+    def test_law_and_materials(self):
+        """The way from the law file and the deck to one sentence and a non-zero status; which words are refused: tests/unit (options, keywords, law_file)."""
         self.refused(self.deck("materials powder"), "'law FILE' is missing")
-        self.refused(self.deck("law nowhere.h5 materials powder"), "nowhere.h5")
-        truncated = self.folder / "truncated.h5"
-        truncated.write_bytes(self.law.read_bytes()[:3000])
-        self.refused(self.deck(f"law {truncated} materials powder"), "truncated.h5")
-        future = self.folder / "future.h5"
-        self.fixture("write", future, "major", 7)
-        self.refused(self.deck(f"law {future} materials powder"), "future.h5", "7")
-
-    def test_materials(self):
-        self.refused(self.deck(f"law {self.law}"), "'materials' is missing")
         self.refused(self.deck(f"law {self.law} materials powdr"), "no material 'powdr'", "did you mean 'powder'")
         self.refused(self.deck(f"law {self.law} materials powder glass"), "one name for each of the 1 atom types, found 2")
-
-    def test_pair_that_the_law_lacks(self):
-        part = self.folder / "part.h5"
-        self.fixture("write", part, "pairs", "powder:powder")
-        self.refused(self.deck(f"law {part} materials powder"), "fix w wall/gran", "'powder:wall'", "powder:powder")
-        self.fixture("write", part, "pairs", "powder:wall")
-        self.refused(self.deck(f"law {part} materials powder"), "pair_style gran", "'powder:powder'", "types 1")
+        other = self.folder / "other.h5"
+        other.write_bytes(self.law.read_bytes()[:3000])
+        self.refused(self.deck(f"law {other} materials powder"), "other.h5")
+        for pairs, command, parts in (("powder:powder", "fix w wall/gran", ("'powder:wall'", "powder:powder")), ("powder:wall", "pair_style gran", ("'powder:powder'", "types 1"))):
+            self.fixture("write", other, "pairs", pairs)
+            self.refused(self.deck(f"law {other} materials powder"), command, *parts)
 
     def test_moduli_that_disagree(self):
         soft = Material("powder", 1500.0, 8e9, 0.3, 1e8)
@@ -47,27 +37,14 @@ class TestBadInput(Deck):
         self.refused(self.deck(self.good(), material=other), "poissonsRatio of type 1", "0.31", "0.3 ")
 
     def test_words(self):
-        self.refused(self.deck(self.good() + " limitForce on lw x"), "unknown keyword 'lw'", "law")
         self.refused(self.deck(self.good() + " limitForc on"), "'limitForc' is no keyword", "'limitForce'")
-        self.refused(self.deck(self.good() + " rolling_friction cdt"), "'rolling_friction' is out of order")
-        self.refused(self.deck(self.good() + " tangentialDampingRatio much"), "needs a number", "much")
-        self.refused(self.deck(self.good() + " tangentialDampingRatio 2"), "out of range", "0 to 1")
-        self.refused(self.deck(self.good() + " stretch 0.5"), "'stretch' is out of range", "1 to 1000")
-        self.refused(self.deck(self.good() + " elasticDamping some"), "'elasticDamping'", "off, restitution")
-        self.refused(self.deck(self.good() + " tangentialStiffness hertz"), "computed, mindlin")
-        self.refused(self.deck(self.good() + " law again.h5"), "'law' is given twice")
-        self.refused(self.deck(self.good(), wall_words="wall soft"), "'wall'", "deformable, rigid")
-        self.refused(self.deck(self.good(), wall="", wall_words="wall rigid primitive type 1 zplane 0.0"),
-                     "'primitive' must stand before")
+        self.refused(self.deck(self.good(), wall="", wall_words="wall rigid primitive type 1 zplane 0.0"), "'primitive' must stand before")
         self.refused(self.deck(self.good() + " computeElasticPotential on"), "not available", "f_granulaw[1]")
-        self.refused(self.deck(self.good() + " computeDissipatedEnergy yes"), "'computeDissipatedEnergy' has an unknown value", "on, off")
         self.refused(self.deck(self.good(), wall_words="computeDissipatedEnergy on"), "say it there")
-        self.refused(self.deck(self.good() + " heatArea some"), "'heatArea' has an unknown value", "law, overlap")
         self.refused(self.deck(self.good() + " tangential_damping off", tangential="no_history"), "no friction")
 
     def test_units(self):
-        deck = self.deck(self.good()).replace("units si", "units micro")
-        self.refused(deck, "units micro", "units si, units cgs")
+        self.refused(self.deck(self.good()).replace("units si", "units micro"), "units micro", "units si, units cgs")
 
     def test_thornton_yield_stress(self):
         deck = self.deck("", model="thornton")

@@ -2,8 +2,7 @@
 import math
 
 from pytest import approx
-from harness import POWDER, head, plane_stl, properties, sphere_mass, worst
-from trials import Trial, dump
+from harness import POWDER, Deck, dump, head, plane_stl, properties, sphere_mass, worst
 
 RADIUS = 1.7e-3
 PLANE = "primitive type 1 zplane 0.0"
@@ -50,7 +49,7 @@ class Body:
         return 1 / (1 / self.mass + dot(n, cross(self.turn(cross(r, n)), r)))
 
 
-class TestClumps(Trial):
+class TestClumps(Deck):
     def words(self, model, more=""):
         return (f"law {self.law} materials powder " if model == "mpm" else "") + "elasticDamping off " + more
 

@@ -1,4 +1,4 @@
-"""Combinations that a deck may have: models, units, materials, elastic and plastic types, radii, laws for walls and pairs."""
+"""Tangential, cohesion and rolling models beside ours."""
 import itertools
 
 from pytest import approx, mark
@@ -15,18 +15,11 @@ MORE = ("fix p7 all property/global cohesionEnergyDensity peratomtypepair 1 1000
 BRIDGE = "".join(f"fix l{k} all property/global {line}\n" for k, line in enumerate((
     "surfaceLiquidContentInitial scalar 0.01", "surfaceTension scalar 0.07", "fluidViscosity scalar 0.001", "contactAngle peratomtype 0.1",
     "minSeparationDistanceRatio scalar 1.01", "maxSeparationDistanceRatio scalar 1.1", "maxLiquidContent scalar 0.01")))
-LAW_TOLERANCE = 0.01  # 50 steps a contact, as test_restitution.py
 
 
 class TestCombinations(Deck):
     def words(self, materials="powder"):
         return f"law {self.law} materials {materials} elasticDamping off"
-
-    def e(self, deck, speed=1.0):
-        return self.result(self.run_deck(deck), "SPEED")[0] / speed
-
-    def replay(self, a, b, r_eff, m_eff, speed):
-        return self.fixture("mpm", self.law, a, b, r_eff, m_eff, speed)
 
     def law_words(self, model):
         return self.words() if model == "mpm" else "elasticDamping off"
@@ -120,60 +113,7 @@ class TestCombinations(Deck):
     def test_cohesion_is_felt(self):
         strong = MORE.replace("1000", "1e6")
         deck = wall_deck("mpm", self.words(), POWDER, RADIUS, 1.0, 2e-7, tangential="history cohesion sjkr")
-        assert self.e(deck.replace("fix p1", strong)) < self.e(deck.replace("fix p1", MORE)) - 0.001
+        (pulled,), (free,) = self.run_each((deck.replace("fix p1", more) for more in (strong, MORE)), "SPEED")
+        assert pulled < free - 0.001
         text = self.run_deck(deck.replace("fix p1", MORE).replace("materials powder", "materials powder stretch 3"))
         assert text.count("does not reach into the cohesion model") == 1
-
-    def test_cgs(self):
-        """The same collision in cgs: speeds 100 times the numbers, energy 1e7 times. The law file stays in SI."""
-        loss = 'variable d equal f_granulaw\nprint "LOSS ${d}"\n'
-        for variant, model in ((), "mpm"), (("axis",), "mpm"), ((), "thornton"):
-            self.fixture("write", self.law, *variant)
-            words = self.words() if model == "mpm" else "elasticDamping 0.01"
-            si = self.run_deck(wall_deck(model, words, POWDER, RADIUS, 3.0, 2e-7, tangential="history") + loss)
-            m = Material("powder", POWDER.density * 1e-3, POWDER.youngs_modulus * 10, POWDER.poisson_ratio,
-                         POWDER.yield_stress * 10)
-            cgs = self.run_deck(wall_deck(model, words, m, RADIUS * 100, 300.0, 2e-7).replace("units si", "units cgs") + loss)
-            # rounding: 1e-16 R in overlaps of 1e-2 R, 50 steps
-            assert self.result(cgs, "SPEED")[0] / self.result(si, "SPEED")[0] == approx(100, abs=1e-8)
-            assert self.result(cgs, "LOSS")[0] / self.result(si, "LOSS")[0] == approx(1e7, abs=1)
-            said = [text[text.index("granulaw contacts"):text.index("Loop time")] for text in (si, cgs)]
-            assert said[0] == said[1]  # the log is in SI
-            assert len(said[0].splitlines()) > 4
-
-    def test_elastic_is_hertz(self):
-        """Half-way through a contact, where velocities still change: against stock hertz with e = 1."""
-        one = "fix p6 all property/global coefficientRestitution peratomtypepair 1 1.0\nfix p1"
-        wall = lambda model, words: wall_deck(model, words, STEEL, RADIUS, 1.0, 1e-7,  # stock hertz's walls give way
-                                              wall_words="wall deformable" if model == "mpm" else "")
-        pair = lambda model, words: pair_deck(model, words, (STEEL, STEEL), (RADIUS, 2 * RADIUS), 1.0, 1e-7)
-        for make in (wall, pair):
-            ours, stock = (self.result(self.run_deck(make(*case).replace("fix p1", one).replace("run 120", "run 40")),
-                                       "SPEED")[0] for case in (("mpm", self.words("elastic")), ("hertz", "")))
-            assert ours / stock == approx(1.0, abs=1e-6)  # the re-tabulated x^1.5
-
-    def mixed(self, pair, wall):
-        one = "fix p6 all property/global coefficientRestitution peratomtypepair 1 1.0\n"
-        return (head(half=20 * RADIUS) + properties([POWDER]) + one +
-                f"pair_style gran model {pair}\npair_coeff * *\nfix s all granulaw/stats\n"
-                f"fix w all wall/gran model {wall}\n"
-                f"create_atoms 1 single 0.0 0.0 {1.0001 * RADIUS} units box\n"
-                f"set group all diameter {2 * RADIUS} density {POWDER.density}\nvelocity all set 0.0 0.0 -1.0\n"
-                "fix i all nve/sphere\ntimestep 2e-7\nvariable v equal vcm(all,z)\nrun 150\n"
-                'print "SPEED ${v}"\n')
-
-    def test_hertz_pairs_with_mpm_walls_and_the_reverse(self):
-        expected, _, _ = self.replay("powder", "wall", RADIUS, MASS, 1.0)
-        wall = f"mpm tangential history primitive type 1 zplane 0.0 {self.words()}"
-        deck = self.mixed("hertz tangential history", wall).replace("fix s all granulaw/stats\n", "")
-        assert self.e(deck) / expected == approx(1.0, abs=LAW_TOLERANCE)
-        deck = self.mixed(f"mpm tangential history {self.words()}", "hertz tangential history primitive type 1 zplane 0.0")
-        assert self.e(deck) == approx(1.0, abs=LAW_TOLERANCE)
-
-    def test_walls_inherit(self):
-        """tangential_damping, tangentialStiffness, elasticDamping: said once. 0.03 m/s is elastic: damping shows."""
-        words = f"law {self.law} materials powder elasticDamping 0.1 tangentialStiffness computed tangential_damping off"
-        inherited = self.e(wall_deck("mpm", words, POWDER, RADIUS, 0.03, 4e-7), 0.03)
-        own = self.e(wall_deck("mpm", words, POWDER, RADIUS, 0.03, 4e-7, wall_words="elasticDamping off"), 0.03)
-        assert inherited < 0.8
-        assert own > 0.99

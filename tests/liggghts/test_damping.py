@@ -33,7 +33,7 @@ class TestDamping(Deck):
     def e(self, deck, speed):
         return self.result(self.run_deck(deck), "SPEED")[0] / speed
 
-    def test_restitution_below_yield(self):
+    def test_collisions_below_yield(self):
         assert damped_restitution(0.001) == approx(math.exp(-0.001 * math.pi), abs=1e-4)
         # 0.003: LIGGGHTS takes the velocity half a step late, at 100 steps a contact 1 % of the damping's loss
         ratios = {"": 0.001, "elasticDamping 0.05": 0.05, "elasticDamping 0.2": 0.2}

@@ -15,18 +15,20 @@ class TestHistory(Deck):
         self.axis_law = self.folder / "axis.h5"
         self.fixture("write", self.axis_law, "axis")
 
-    def energy(self, model, extra="", neigh="delay 0", run=f"run {STEPS}\n"):
+    def energy(self, model, extra="", neigh="delay 0", run=f"run {STEPS}\n", ranks=1, written_on=0):
+        """`written_on`: so many ranks wrote a restart file half-way, from which the run goes on."""
         # damping off: a split run of a damped contact differs for stock reasons (LIGGGHTS's set-up forces use
         # full-step velocities)
         words = "tangentialDampingRatio 0 elasticDamping off" + {"mpm": f" law {self.law} materials powder", "thornton": "",
                                                "mpm with axis": f" law {self.axis_law} materials powder"}[model]
-        text = self.run_deck(gas.start(extra, neigh) + gas.model(words, name=model.split()[0]) + gas.MOVE + gas.OUTPUT + run +
-                             gas.PRINT)
-        return self.result(text, "GAS")
+        rules = gas.model(words, name=model.split()[0]) + gas.MOVE + gas.OUTPUT
+        if written_on:
+            self.run_deck(gas.start(extra, neigh) + rules + f"run {STEPS // 2}\nwrite_restart half.restart\n", ranks=written_on)
+        return self.result(self.run_deck(gas.start(extra, neigh, "read_restart half.restart" if written_on else "read_data gas.data") + rules + run + gas.PRINT, ranks=ranks), "GAS")
 
     @mark.parametrize("model", ("mpm", "mpm with axis", "thornton"))
     def test_invariance(self, model):
-        """Kinetic energy, dissipation, number of contacts and largest overlap for five ways to run one case."""
+        """Kinetic energy, dissipation, number of contacts and largest overlap for eight ways to run one case."""
         reference = self.energy(model, extra="sort 0 0.0")
         start = self.energy(model, run="run 0\n")
         assert reference[0] < 0.7 * start[0]  # plastic contacts took part
@@ -34,7 +36,8 @@ class TestHistory(Deck):
         ways = {"rebuild at every step": {"extra": "sort 0 0.0", "neigh": "every 1 delay 0 check no"},
                 "sort at every rebuild": {"extra": "sort 1 0.0003", "neigh": "every 1 delay 0 check no"},
                 "split run": {"extra": "sort 0 0.0", "run": "run 777\n" * 6 + f"run {STEPS - 6 * 777}\n"},
-                "wider contact distance": {"extra": "sort 0 0.0", "neigh": "delay 0 contact_distance_factor 1.05"}}
+                "wider contact distance": {"extra": "sort 0 0.0", "neigh": "delay 0 contact_distance_factor 1.05"},
+                "two ranks": {"ranks": 2}, "four ranks": {"ranks": 4}, "a restart file of two ranks": {"run": f"run {STEPS - STEPS // 2}\n", "written_on": 2}}
         for name, way in ways.items():
             found = self.energy(model, **way)
             for value, expected in zip(found, reference):

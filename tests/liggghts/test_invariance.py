@@ -1,26 +1,19 @@
-"""Results must not depend on how LIGGGHTS keeps its lists, splits the box, or is started and stopped. Stock models beside.
-
-1000 steps of the collapse, our models only; with GRANULAW_FULL=1 10,000 steps, stock models beside (slow).
+"""Results must not depend on how LIGGGHTS keeps its lists, splits the box, or is started and stopped (a gas on ranks and through restarts: test_history.py).
 
 Runs that differ only in the order of floating-point sums drift apart as fast as a run whose particles were moved by one
 unit in the last place. That is measured in the same test, and is the yardstick: a lost or wrong contact history shows at
-1e-3 of a radius (stock thornton_ning does it here)."""
+1e-3 of a radius (docs/evidence/trials.md: stock thornton_ning does it here)."""
 import math
-import os
 import random
 
 from pytest import approx
-from harness import POWDER, head, properties, worst
-from trials import Trial, dump
+from harness import POWDER, Deck, dump, head, properties, worst
 
 RADIUS = 1.7e-3
 DT = 2e-7  # a contact lasts 80 steps
-FULL = "GRANULAW_FULL" in os.environ
-STEPS = 10000 if FULL else 1000
-MODELS = ("mpm", "thornton", "hertz", "thornton_ning")
+STEPS = 10000
+MODELS = ("mpm", "thornton")
 ELASTIC = "fix q1 all property/global coefficientRestitution peratomtypepair 1 1.0\n"  # stock hertz without damping
-NING = ("fix q1 all property/global coefficientRestitution peratomtypepair 1 1.0\n"
-        "fix q2 all property/global surfaceEnergy peratomtypepair 1 0.0\nfix q3 all property/global coefficientYieldRatio peratomtype 0.05\n")
 
 
 def column(path, ulp=0, reverse=False, nx=5, nz=20, seed=3, throw=3.0, spacing=1.02):
@@ -47,22 +40,16 @@ def column(path, ulp=0, reverse=False, nx=5, nz=20, seed=3, throw=3.0, spacing=1
                     "\n\nVelocities\n\n" + "\n".join(velocities) + "\n")
 
 
-class Invariance(Trial):
+class Invariance(Deck):
     def words(self, model):
         """Normal model, tangential history without viscous damping, its own keywords."""
         if model == "mpm":
             return f"model mpm tangential history law {self.law} materials powder tangentialDampingRatio 0 elasticDamping off"
-        if model == "thornton":
-            return "model thornton tangential history tangentialDampingRatio 0 elasticDamping off"
-        if model == "hertz":
-            return "model hertz tangential history tangential_damping off"
-        return "model thornton_ning tangential history tangential_damping off"
+        return "model thornton tangential history tangentialDampingRatio 0 elasticDamping off"
 
     def deck(self, model, start="read_data column.data", sort="sort 0 0.0", neigh="delay 0", run=f"run {STEPS}\n",
              output="", friction=0.3):
-        """contact_distance_factor 1.01: stock models need it to drop contacts that have parted."""
-        extra = {"hertz": ELASTIC, "thornton_ning": NING}.get(model, "")
-        return (head(read=start, extra=sort, skin=RADIUS / 5, neigh=f"{neigh} contact_distance_factor 1.01") + properties([POWDER], friction) + extra +
+        return (head(read=start, extra=sort, skin=RADIUS / 5, neigh=f"{neigh} contact_distance_factor 1.01") + properties([POWDER], friction) +
                 f"pair_style gran {self.words(model)}\npair_coeff * *\n"
                 f"fix w all wall/gran {self.wall_words(model)}\n"
                 f"fix g all gravity 9.81 vector 0 0 -1\nfix i all nve/sphere\ntimestep {DT!r}\nthermo 1000000\n{output}{run}")
@@ -89,7 +76,6 @@ class TestForces(Invariance):
         """A cluster in contact: forces on every sphere, over the largest force, for four ways to hold the same lists."""
         steps = 100  # the first contacts load, turn and unload
         for model in MODELS:
-            self.largest = {}
             for way, keywords in {"exchange": {}, "rebuild": {"neigh": "every 1 delay 0 check no"},
                                   "sort": {"sort": "sort 1 0.0003", "neigh": "every 1 delay 0 check no"}}.items():
                 frames = []
@@ -103,15 +89,13 @@ class TestForces(Invariance):
                 upper = {i for frame in frames[0] for i, f in frame.items() if i > 9 and max(map(abs, f)) > 1e-3 * biggest}
                 assert len(upper) > 10  # spheres that the floor cannot reach: pairs do touch
                 found = max(difference(a, b, (0, 1, 2)) for a, b in zip(*frames)) / biggest
-                self.record("forces", model=model, way=way, difference=found)
-                if model in ("mpm", "thornton"):
-                    assert found < 1e-12, f"{model}, {way}"  # required
+                assert found < 1e-12, f"{model}, {way}"  # required
 
 
 class TestCollapse(Invariance):
     def test_collapse(self):
         """500 spheres from one restart file that already holds contacts."""
-        for model in MODELS if FULL else MODELS[:2]:
+        for model in MODELS:
             # start: 500 steps into the fall, contacts open
             column(self.folder / "column.data")
             self.run_deck(self.deck(model, run="run 500\nwrite_restart start.restart\n"))
@@ -141,11 +125,9 @@ class TestCollapse(Invariance):
             for way, (keywords, ranks) in ways.items():
                 found = self.frame_after(self.deck(model, **{**start, **keywords}), ranks)
                 apart = difference(reference, found, (0, 1, 2)) / RADIUS
-                self.record("collapse", model=model, way=way, steps=STEPS, difference=apart, yardstick=yardstick)
                 if way in ("1 rank again", "output at every step"):
-                    if model in ("mpm", "thornton"):
-                        assert apart == 0.0, f"{model}, {way}"  # the same sums in the same order
-                elif model in ("mpm", "thornton"):
+                    assert apart == 0.0, f"{model}, {way}"  # the same sums in the same order
+                else:
                     # A rounding error enters at every step of these runs, once in the yardstick: 100 times as much, and
                     # no less than 1e-12 R, is still rounding.
                     assert apart < max(100 * yardstick, 1e-12), f"{model}, {way}"
@@ -179,8 +161,7 @@ class TestRejoin(Invariance):
                 assert len(rebounds) >= 2, f"gap {gap}: {velocities[::10]}"
                 results.append(rebounds[:2])
                 e = rebounds[1] / rebounds[0]
-                self.record("rejoin", gap=gap, neigh=neigh, e=e, virgin=second)
-                # 1 %: the step's error, as in test_restitution; with the dent kept e would be 1 within 0.01
+                # 1 %: the step's error, as in test_collisions; with the dent kept e would be 1 within 0.01
                 assert rebounds[0] / speed / first == approx(1.0, abs=0.01)
                 assert e / second == approx(1.0, abs=0.01)
                 assert second < 0.97

@@ -1,11 +1,10 @@
-"""The ways a deck can be written: order of commands, restart, LD_PRELOAD, rolling friction, converted Hertz decks."""
+"""The ways a deck can be written: order of commands, LD_PRELOAD, rolling friction, converted Hertz decks."""
 import json
 
-from pytest import approx, mark
+from pytest import mark
 from programs import LAUNCHER, run
-import gas
 from collisions import wall_deck
-from harness import PLUGIN, POWDER, Deck, properties
+from harness import PLUGIN, POWDER, Deck
 
 RADIUS = 1.7e-3
 
@@ -72,18 +71,3 @@ class TestOptions(Deck):
     def test_check_timestep(self):
         deck = self.deck().replace("run 120", "fix c all check/timestep/gran 10 0.5 0.5\nrun 120")
         assert self.speed(deck) > 0.1
-
-    def test_restart(self):
-        """A run through a restart file equals the run in one go; without pair_style it says what to do."""
-        gas.data_file(self.folder / "gas.data")
-        model = gas.model(self.words + " tangentialDampingRatio 0 elasticDamping off")
-        whole = self.run_deck(gas.start() + model + gas.MOVE + gas.OUTPUT + "run 2000\nrun 2000\n" + gas.PRINT)
-        for ranks in (1, 2):
-            self.run_deck(gas.start() + model + gas.MOVE + gas.OUTPUT + "run 2000\nwrite_restart half.restart\n",
-                          ranks=ranks)
-            again = gas.start(read="read_restart half.restart")
-            resumed = self.run_deck(again + model + gas.MOVE + gas.OUTPUT + "run 2000\n" + gas.PRINT)
-            # rounding, amplified by 2000 steps of collisions
-            assert self.result(resumed, "GAS")[0] / self.result(whole, "GAS")[0] == approx(1.0, abs=1e-8)
-        bare = self.run_deck(again + properties([POWDER], 0.3) + gas.MOVE + "run 1\n", expect_failure=True)
-        assert "repeat pair_style and pair_coeff after read_restart" in bare

@@ -1,6 +1,4 @@
-"""Two MPI ranks: the same physics, the same statistics, and a clean stop when something is wrong."""
-
-from pytest import approx, mark
+"""Two MPI ranks: a clean stop when something is wrong (the same physics: test_history.py)."""
 from programs import LAUNCHER, run
 import gas
 from harness import Deck
@@ -25,18 +23,6 @@ extern "C" void* FIND(void* self, const char* name, const char* style, const cha
 class TestParallel(Deck):
     def prepare(self):
         gas.data_file(self.folder / "gas.data")
-        self.axis_law = self.folder / "axis.h5"
-        self.fixture("write", self.axis_law, "axis")
-
-    @mark.parametrize("model", ("mpm", "mpm with axis", "thornton"))
-    def test_gas_on_two_ranks(self, model):
-        law = {"mpm": self.law, "mpm with axis": self.axis_law}.get(model)
-        words = f"law {law} materials powder" if law else ""
-        deck = gas.start() + gas.model(words, name=model.split()[0]) + gas.MOVE + gas.OUTPUT + "run 5000\n" + gas.PRINT
-        one = self.result(self.run_deck(deck), "GAS")
-        two = self.result(self.run_deck(deck, ranks=2), "GAS")
-        for value, expected in zip(two, one):
-            assert value / expected == approx(1.0, abs=1e-6), model  # order of summation, as in test_history
 
     def test_error_of_one_rank_alone_ends_the_run(self):
         """The others wait for it in a sum; without its message they would do so for ever."""

@@ -1,4 +1,4 @@
-"""A law of a rate-dependent material in LIGGGHTS: for particles of its own size only (test_restitution.py: as the replay has it)."""
+"""A law of a rate-dependent material in LIGGGHTS: for particles of its own size only (test_collisions.py: as the replay has it)."""
 import json
 import math
 import re
