@@ -12,7 +12,7 @@
 
 namespace granulaw {
 
-/// Each test works in an empty folder of its own: several may run at the same time.
+/// Each test works in an empty folder of its own, in memory where there is such a folder: several may run at the same time.
 class ScratchFolder : public ::testing::Test
 {
  protected:
@@ -36,7 +36,7 @@ class ScratchFolder : public ::testing::Test
   }
 
  private:
-  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() /
+  const std::filesystem::path folder_ = (std::filesystem::exists("/dev/shm") ? "/dev/shm" : std::filesystem::temp_directory_path()) /
                                         ("granulaw_" + std::to_string(getpid()) + "_" +
                                          ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };

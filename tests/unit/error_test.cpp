@@ -48,6 +48,7 @@ TEST(Error, AnUnknownWordIsNamedWithTheNearestKnownOne)
             "m.toml: no material 'powdr' (did you mean 'powder'?): allowed is powder, glass");
   EXPECT_EQ(sentence("xyz", ", or a number"),
             "m.toml: no material 'xyz': allowed is powder, glass, or a number");
+  EXPECT_EQ(nearest("young_modulus", std::vector<std::string>{"density", "youngs_modulus"}), "youngs_modulus");
 }
 
 }  // namespace granulaw::error_test

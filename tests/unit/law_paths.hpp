@@ -74,6 +74,7 @@ class Path
     const auto integrand = [&](double s) {
       const double x = s * s * s * s;
       const double f = force(x);
+      RC_ASSERT(f >= 0 && std::isfinite(f));
       top_ = larger(top_, f);
       return 4 * s * s * s * f;
     };

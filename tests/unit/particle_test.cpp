@@ -80,16 +80,6 @@ TEST(Particle, Ellipsoids)
   }
 }
 
-TEST(Particle, ProfileOfASphereIsTheSphere)
-{
-  const Particle exact = body(1e-3), p = body(1e-3, ellipsoid(1e-3, 1));
-  for (int i = 0; i <= 60; ++i)
-    for (int j = -10; j <= 70; ++j) {
-      const double r = 2e-5 * i, z = 3e-5 * j;
-      ASSERT_NEAR(p.depth(r, z), exact.depth(r, z), 1e-9) << r << " " << z;  // chord error
-    }
-}
-
 /// Signed distance near the surface of a shape of arcs and lines, in closed form.
 using Distance = std::function<double(double r, double z)>;
 
@@ -186,14 +176,6 @@ TEST(Particle, Tablet)
   const double h = cap - std::sqrt(cap * cap - radius * radius);
   EXPECT_NEAR(sharp.volume() / (pi * radius * radius * (height - 2 * h) + 2 * pi * h * h * (3 * cap - h) / 3),
               1, volume_error);
-  // the sum of its levels
-  double sum = 0;
-  const int n = 400;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      if (p.material_at((i + 0.5) / n * radius, (j + 0.5) / n * height) == 0)
-        sum += 2 * pi * (i + 0.5) / n * radius * radius / n * height / n;
-  EXPECT_NEAR(sum / p.volume(), 1, 1e-3);  // cells of 1/400 cut by the surface
   // at its limits it is a sphere, with no edge and no band
   const Particle round = body(radius, tablet(radius, 2 * radius, radius, edge));
   expect_surface(
@@ -253,8 +235,7 @@ TEST(Particle, LayersAndInclusions)
       EXPECT_EQ(at(0.298e-3, angle), 2);
       EXPECT_EQ(at(0.302e-3, angle), 0);
     }
-    // a ring through both layers, a pore in it, a ball on the axis; the ring's volume is 2 pi^2 r a^2
-    // (Pappus)
+    // a ring through both layers, a pore in it, a ball on the axis
     const double r = 0.6e-3, z = 1e-3, a = 0.35e-3;
     p.inclusions = {{r, z, a, 1}, {r, z, 0.1e-3, -1}, {0, 0.5e-3, 0.2e-3, 2}};
     validate(p, "inclusions");
@@ -264,16 +245,6 @@ TEST(Particle, LayersAndInclusions)
     EXPECT_EQ(p.material_at(r, z + 0.11e-3), 1);
     EXPECT_EQ(p.material_at(0.19e-3, 0.5e-3), 2);
     EXPECT_EQ(p.material_at(0, 1e-3), 0);
-    p.layers.clear();
-    double ring = 0;
-    const int n = 500;
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        const double x = r - a + 2 * a * (i + 0.5) / n, y = z - a + 2 * a * (j + 0.5) / n;
-        if (p.material_at(x, y) == 1) ring += 2 * pi * x * (2 * a / n) * (2 * a / n);
-      }
-    // less the pore, and less nothing else: the ball stays clear of the ring; cells of 1/500 cut at the edge
-    EXPECT_NEAR(ring / (2 * pi * pi * r * (a * a - 0.01e-6)), 1, 2e-3);
   }
 }
 

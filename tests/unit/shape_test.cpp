@@ -15,23 +15,32 @@ namespace granulaw::shape_test {
 
 using std::numbers::pi;
 
-TEST(Sphere, FulfilsWhatEveryShapeMust)
-{
-  const SharedShape sphere = sphere_shape(2e-3);
-  expect_lipschitz(*sphere);
-  expect_support(*sphere);
-  expect_normals(*sphere);
-  expect_radii(*sphere);
-  EXPECT_DOUBLE_EQ(sphere->mass_properties().volume, 4.0 / 3.0 * pi * 8e-9);
-}
+const std::vector<ClumpBall> three_balls{{{0, 0, 0}, 1}, {{1, 0.3, 0}, 0.8}, {{0.2, 0.9, 0.4}, 0.7}};
 
-TEST(Ellipsoid, FulfilsWhatEveryShapeMust)
+/// Where a face is flat the point of contact moves far for a small change of the normal, and the radii change within the gap that
+/// is measured. 0: not examined, as an edge or a groove has no normal, chords no radii.
+TEST(Shapes, FulfilWhatEveryShapeMust)
 {
-  const SharedShape ellipsoid = ellipsoid_shape({1e-3, 2e-3, 3e-3});
-  expect_lipschitz(*ellipsoid);
-  expect_support(*ellipsoid);
-  expect_normals(*ellipsoid);
-  expect_radii(*ellipsoid);
+  const struct
+  {
+    SharedShape shape;
+    double normals, radii;
+  } all[] = {{sphere_shape(2e-3), 1e-6, 1e-3},
+             {ellipsoid_shape({1e-3, 2e-3, 3e-3}), 1e-6, 1e-3},
+             {superquadric_shape({1e-3, 2e-3, 1.5e-3}, 4, 4), 1e-5, 0.02},
+             {superquadric_shape({1e-3, 2e-3, 1.5e-3}, 3, 5), 1e-5, 0.02},
+             {superquadric_shape({1e-3, 2e-3, 1.5e-3}, 2.5, 2), 1e-5, 0.02},
+             {box_shape({1e-3, 2e-3, 3e-3}, 0.2e-3), 1e-6, 1e-3},
+             {clump_shape(three_balls, "clump"), 0, 1e-3},
+             {revolved_shape(conical_tip(1e-3, 40, 0.2e-3)), 0, 0}};
+  for (const auto& [shape, normals, radii] : all) {
+    SCOPED_TRACE(shape->kind());
+    expect_lipschitz(*shape);
+    expect_support(*shape);
+    if (normals > 0) expect_normals(*shape, normals);
+    if (radii > 0) expect_radii(*shape, radii);
+  }
+  EXPECT_DOUBLE_EQ(sphere_shape(2e-3)->mass_properties().volume, 4.0 / 3.0 * pi * 8e-9);
 }
 
 TEST(Ellipsoid, WithEqualAxesIsTheSphere)
@@ -71,19 +80,6 @@ TEST(Ellipsoid, InertiaInClosedForm)
   EXPECT_NEAR(mass.volume, 8 * pi, 1e-13);
   EXPECT_NEAR(mass.inertia(0, 0), mass.volume * 13 / 5, 1e-12);  // m (b^2 + c^2)/5
   EXPECT_NEAR(mass.inertia(2, 2), mass.volume * 5 / 5, 1e-12);
-}
-
-TEST(Superquadric, FulfilsWhatEveryShapeMust)
-{
-  for (const auto& [n1, n2] : {std::pair{4.0, 4.0}, {3.0, 5.0}, {2.5, 2.0}}) {
-    const SharedShape shape = superquadric_shape({1e-3, 2e-3, 1.5e-3}, n1, n2);
-    expect_lipschitz(*shape);
-    expect_support(*shape);
-    expect_normals(*shape,
-                   1e-5);  // flat sides: the point of contact moves far for a small change of the normal
-    // The radii change within the gap that is measured, where a face is flat.
-    expect_radii(*shape, 0.02);
-  }
 }
 
 TEST(Superquadric, WithExponentsTwoIsTheEllipsoid)
@@ -142,21 +138,11 @@ TEST(Shapes, MassIsThatOfARaster)
 {
   const SharedShape superquadric = superquadric_shape({1, 2, 1.5}, 3, 5);
   const SharedShape box = box_shape({1, 2, 3}, 0.3);
-  const SharedShape clump =
-      clump_shape({{{0, 0, 0}, 1}, {{1, 0.3, 0}, 0.8}, {{0.2, 0.9, 0.4}, 0.7}}, "clump");
+  const SharedShape clump = clump_shape(three_balls, "clump");
   const SharedShape drop = revolved_shape(conical_tip(1, 40, 0.2));
   // 60^3 points: the surface's cells are wrong by chance, 1e-3 of the volume.
   for (const SharedShape& shape : {superquadric, box, clump, drop})
     expect_equal_mass(shape->mass_properties(), by_raster(*shape, 60), size_of(*shape), 2e-3);
-}
-
-TEST(Box, FulfilsWhatEveryShapeMust)
-{
-  const SharedShape box = box_shape({1e-3, 2e-3, 3e-3}, 0.2e-3);
-  expect_lipschitz(*box);
-  expect_support(*box);
-  expect_normals(*box);
-  expect_radii(*box);
 }
 
 TEST(Box, InClosedForm)
@@ -195,16 +181,6 @@ TEST(Clump, OfOneSphereIsTheSphere)
   expect_equal_mass(clump->mass_properties(), sphere->mass_properties(), 2e-3, 2e-5);
 }
 
-const std::vector<ClumpBall> three_balls{{{0, 0, 0}, 1}, {{1, 0.3, 0}, 0.8}, {{0.2, 0.9, 0.4}, 0.7}};
-
-TEST(Clump, FulfilsWhatEveryShapeMust)
-{
-  const SharedShape clump = clump_shape(three_balls, "clump");
-  expect_lipschitz(*clump);
-  expect_support(*clump);
-  expect_radii(*clump);
-}
-
 TEST(Clump, DepthIsTheDistanceToTheNearestOfManySurfacePoints)
 {
   const SharedShape clump = clump_shape(three_balls, "clump");
@@ -239,22 +215,14 @@ TEST(Clump, TwoBallsInClosedForm)
               1, 2e-5);
 }
 
-TEST(Clump, Refused)
+TEST(Clump, NeedsSpheres)
 {
   EXPECT_EQ(sentence_of([] { clump_shape({}, "a"); }), "a: the clump has no spheres");
-  EXPECT_EQ(sentence_of([] {
-              clump_shape({{{0, 0, 0}, 1}, {{3, 0, 0}, 1}}, "a");
-            }),
-            "a: the spheres of the clump do not hang together: found no overlap with the sphere at (3, 0, 0) "
-            "m, r = 1 "
-            "m, allowed is one body of overlapping spheres");
 }
 
-TEST(Revolved, FulfilsWhatEveryShapeMust)
+TEST(Revolved, HasItsProfilesSymmetryAndRadius)
 {
   const SharedShape drop = revolved_shape(conical_tip(1e-3, 40, 0.2e-3));
-  expect_lipschitz(*drop);
-  expect_support(*drop);
   EXPECT_EQ(drop->symmetric(), (std::array<bool, 3>{true, true, false}));
   EXPECT_NEAR(drop->finest_radius() / 0.2e-3, 1, 1e-3);  // chords
 }

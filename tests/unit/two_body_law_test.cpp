@@ -1,16 +1,13 @@
-// Laws of pairs of their own: how they are looked up and kept in a file; `slow`: that one agrees with a fresh
+// Laws of pairs of their own: how they are looked up; `slow`: that one agrees with a fresh
 // impact.
 #include "characterise/run/request.hpp"
 #include "characterise/pair/two_body_law.hpp"
+#include "characterise/pair/two_body_runs.hpp"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "base/error.hpp"
-#include "law/law_file.hpp"
 #include "law/replay.hpp"
-#include "one_body_runs.hpp"
 #include "synthetic_law.hpp"
 
 namespace granulaw::two_body_law_test {
@@ -99,78 +96,6 @@ TEST(TwoBodyLaw, OfOneMaterialIsForUnlikeSizes)
   EXPECT_EQ(curve(1, 1.2), &law.bodies.at("powder").curve);
 }
 
-class PairLawFile : public ::testing::Test
-{
- protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string sentence_of_writing(const Law& law) const
-  {
-    try {
-      write_law(law, path_);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "written";
-  }
-  const std::string folder_ =
-      ::testing::TempDir() + "pair_law_" + ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  const std::string path_ = folder_ + "/law.h5";
-};
-
-TEST_F(PairLawFile, ComesBackBitExact)
-{
-  const Law law = law_with_pair();
-  write_law(law, path_);
-  const Law read = read_law(path_);
-  ASSERT_EQ(read.pair_laws.size(), 1u);
-  const TwoBodyLaw &a = law.pair_laws.at("powder:glass").front(),
-                   &b = read.pair_laws.at("powder:glass").front();
-  EXPECT_EQ(a.law.curve.table().kept.value, b.law.curve.table().kept.value);
-  EXPECT_EQ(a.law.curve.table().force.slope, b.law.curve.table().force.slope);
-  ASSERT_NE(b.law.curve.axis(), nullptr);
-  EXPECT_EQ(a.law.curve.axis()->force.value, b.law.curve.axis()->force.value);
-  EXPECT_EQ(b.law.certificate.damage_number_max, 0.03);
-  EXPECT_EQ(b.law.material.name, "powder");
-  EXPECT_EQ(b.radius_ratio, 2);
-  const Replay before = replay_collision(resolve_pair(law, "powder", "glass", "test"), 5e-4, 1e-6, 1.0),
-               after = replay_collision(resolve_pair(read, "glass", "powder", "test"), 5e-4, 1e-6, 1.0);
-  EXPECT_EQ(before.force_max, after.force_max);
-  EXPECT_EQ(before.restitution, after.restitution);
-}
-
-TEST_F(PairLawFile, RefusesLawsThatNoPairCanHave)
-{
-  const auto says = [&](const auto& change, const std::string& words) {
-    Law law = law_with_pair();
-    change(law);
-    EXPECT_NE(sentence_of_writing(law).find(words), std::string::npos) << sentence_of_writing(law);
-  };
-  const auto rename = [](Law& law, const std::string& name) {
-    auto node = law.pair_laws.extract("powder:glass");
-    node.key() = name;
-    law.pair_laws.insert(std::move(node));
-  };
-  says([&](Law& l) { rename(l, "glass:powder"); }, "not among its pairs");
-  says(
-      [&](Law& l) {
-        l.pair_laws.begin()->second.front().radius_ratio = 1;
-        rename(l, "powder:powder");
-      },
-      "over 1");
-  says([&](Law& l) { rename(l, "powder:wall"); }, "rigid wall");
-  says([&](Law& l) { rename(l, "powder"); }, "not among its pairs");
-  says([](Law& l) { l.pair_laws.begin()->second.front().radius_ratio = -1; }, "radius_ratio");
-  says([](Law& l) { l.pair_laws.begin()->second.front().law.certificate.held_out_error = NAN; },
-       "held_out_error");
-  says(
-      [](Law& l) {
-        l.pairs.push_back({"glass", "powder"});
-        l.pair_laws["glass:powder"] = l.pair_laws.at("powder:glass");
-      },
-      "two laws");
-}
-
 LawMaterial material(double yield)
 {
   LawMaterial m;
@@ -199,6 +124,16 @@ TEST(TwoBodyLaw, NeedsABodyThatYields)
   EXPECT_THROW(build_two_body_law({material(never), material(never), 1}, {}), Error);
 }
 
+/// The pair rule's collision, computed by the solver: the sphere of radius lambda R* and mass lambda m* on the rigid wall, under
+/// lambda F. Like radii.
+RunSummary run_as_one_body(const UnlikePair& pair, double velocity, const RunOptions& options)
+{
+  Particle sphere = TwoBodies(pair).first;
+  sphere.radius = pair.mapping().length(pair.r_eff());
+  sphere.materials[0].density = pair.one_body_density();
+  return impact(sphere, {velocity / pair.wave_speed()}, {}, options).summary;
+}
+
 /// The whole path: records, fit, axis, mapping, against an impact of two bodies that took no part. The rule
 /// is off by 3 % there. Label slow.
 TEST(TwoBodyLawSlow, AgreesWithAFreshImpactWhereTheRuleDoesNot)
@@ -210,7 +145,7 @@ TEST(TwoBodyLawSlow, AgreesWithAFreshImpactWhereTheRuleDoesNot)
   const double v = 18 * pair.yield_velocity();
   RunOptions run;
   run.resolution = 20, run.shifted_grids = 2, run.precision = Precision::single;
-  const RunSummary truth = run_two_bodies(pair, v, run), rule = tests::run_as_one_body(pair, v, run);
+  const RunSummary truth = run_two_bodies(pair, v, run), rule = run_as_one_body(pair, v, run);
   // In units of the yielding body: R = E* = rho = 1.
   const PairLaw law{{&built.law.curve, pair.mapping()}, &built.law};
   const double mass = pair.m_eff() * pair.yielding.density;  // R = 1 m

@@ -45,11 +45,6 @@ const RunResult& at_45_degrees()
   return run;
 }
 
-double mass()
-{
-  return 1000 * 4.0 / 3.0 * M_PI * radius * radius * radius;
-}
-
 /// Coulomb: while all of the contact slides, the impulses have the ratio mu, so that the tangential velocity
 /// falls by mu V (1 + e). The disc of friction is filled to rounding; a marker that sticks in the first or
 /// last steps leaves 1e-4 here.
@@ -59,23 +54,6 @@ TEST(Oblique, TheSlidingLimit)
   const double before = tangent * velocity;
   EXPECT_NEAR(r.tangential * before, before - 0.1 * velocity * (1 + r.normal), 1e-3 * before);
   EXPECT_NEAR(r.impulse_tangential / r.impulse_normal, 0.1, 1e-3 * 0.1);
-}
-
-/// A sphere that leaves with spin has it from the wall's torque alone.
-TEST(Oblique, TheSpinIsTheTorquesImpulse)
-{
-  const RunResult& run = at_45_degrees();
-  const std::vector<PlaneSample>& samples = run.planes.front().samples;
-  double angular = 0, along = 0;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const std::size_t low = k > 0 ? k - 1 : 0, high = std::min(k + 1, samples.size() - 1);
-    const double time = (run.trace[high].time - run.trace[low].time) / static_cast<double>(high - low);
-    angular += time * samples[k].torque[1], along += time * samples[k].vector[0];
-  }
-  // the spin divides by the tensor of inertia of the dented body, the samples' lengths are rounded: 0.3 %
-  EXPECT_NEAR(angular / (0.4 * mass() * radius * radius * run.rebound->spin[1]), 1, 3e-3);
-  EXPECT_NEAR(-along / run.rebound->impulse_tangential, 1, 3e-3);
-  EXPECT_NEAR(run.rebound->impulse_normal, mass() * velocity * (1 + run.rebound->normal), 1e-3 * mass());
 }
 
 /// Friction acts in the wall, R - delta below the centre, delta the centre's way since first touch; the

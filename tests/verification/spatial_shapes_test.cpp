@@ -72,7 +72,7 @@ RunResult thrown(const Particle& p, double velocity, const std::array<double, 3>
 class EllipticContact
 {
  public:
-  explicit EllipticContact(const PrincipalRadii& radii, double e_star) : radius_(std::sqrt(radii.flatter * radii.sharper)), e_star_(e_star)
+  EllipticContact(const PrincipalRadii& radii, double modulus) : radius_(std::sqrt(radii.flatter * radii.sharper)), e_star_(modulus)
   {
     double low = 1e-7, high = 1;  // of b/a: eq. 4.28, whose right side falls as b/a rises
     for (int step = 0; step < 60; ++step) {

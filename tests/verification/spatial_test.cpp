@@ -324,24 +324,6 @@ TEST(SpatialImpact, ElasticSphereAgreesWithTheAxisymmetricSolver)
   EXPECT_LT(found.energy_error, 1e-3);
 }
 
-/// While the whole contact slides the tangential impulse is mu times the normal one: the tangential velocity
-/// loses mu V_n (1 + e). With V_t three times V_n the spreading of the contact turns the sliding by less than
-/// two degrees: 0.1 %. The impulses also turn the body: I w = torque of both, with the lever R - delta.
-TEST(SpatialImpact, SlidingLosesFrictionTimesTheNormalImpulse)
-{
-  Approach thrown{100 * customary_velocity(100)};
-  thrown.tangential_velocity = 3 * thrown.velocity, thrown.friction = 0.1;
-  const RunResult r = impact(sphere(100), thrown, {}, in_space(coarse(6)));
-  const Rebound& rebound = *r.rebound;
-  const double lost = thrown.tangential_velocity * (1 - rebound.tangential);
-  EXPECT_NEAR(lost / (thrown.friction * thrown.velocity * (1 + rebound.normal)), 1, 1e-3);
-  EXPECT_NEAR(rebound.impulse_tangential / rebound.impulse_normal, thrown.friction, 1e-3 * thrown.friction);
-  const double mass = 4.0 / 3.0 * M_PI * 1000 * std::pow(radius, 3);
-  const double lever = 0.4 * mass * radius * radius * rebound.spin[1] / rebound.impulse_tangential;
-  EXPECT_LT(lever, radius);
-  EXPECT_GT(lever, radius - 4 * r.summary.delta_max);  // the pressure moves ahead of the centre, too
-}
-
 RunResult press(const std::string& planes, double depth, int cells, int grids = 1)
 {
   PressPlan plan;
