@@ -74,21 +74,10 @@ def test_design():
 
 
 def test_errors():
-    """One sentence each."""
+    """One sentence each; which files are refused: tests/unit/calibrate/measurement_file_test.cpp."""
     header = "velocity_m_per_s,restitution\n"
     fit = ["--youngs-modulus", "3.2e9", "--fit", "yield_stress"]
-    for text, wanted in [
-        ("velocity,restitution\n1,0.5\n2,0.4\n", "must name its unit"),
-        ("a,b\n1,2\n", "names no kind"),
-        (header + "1\n2,0.5\n", "another number of columns"),
-        (header + "-1,0.5\n2,0.4\n", "out of range"),
-        (header + "1,1.5\n2,0.4\n", "over 1 by more than its noise"),
-        (header + "1,0.5\n", "too few values"),
-        (header + "1,nan\n2,0.4\n", "not finite"),
-        (header, "no row"),
-        ("", "empty"),
-        ("displacement_m,force_N\n0,0\n1e-6,1\n", "more rows"),
-    ]:
+    for text, wanted in (("velocity,restitution\n1,0.5\n2,0.4\n", "must name its unit"), (header + "1,0.5\n", "too few values"), ("", "empty")):
         Path("bad.csv").write_text(text)
         said = mpm("calibrate", "bad.csv", *KNOWN, *fit, code=1).stderr
         assert wanted in said and said.startswith("mpm: bad.csv") and said.count("\n") == 1, (text, said)

@@ -223,112 +223,49 @@ def test_fields():
     refused(["impact", "m.toml", *HIT, "--frames", "5"], "--fields", code=2)
 
 
-def test_errors():
+def test_errors(monkeypatch):
+    """The way from each parser to one sentence and an exit code; which words they refuse: tests/unit (materials_file, refusals, run_request, option_checks)."""
     name = materials()
     out = ["-o", "out.csv"]
     refused(["impact", name, "--particle", "gran", "--velocity", "1", *out], "m.toml", "gran", "did you mean 'grain'")
     refused(["impact", "none.toml", *HIT, *out], "none.toml", "no such file")
-    refused(["impact", name, "--particle", "grain", "--velocity", "-1", *out], "--velocity", "over 0")
-    refused(["impact", name, *HIT, "--grid", "tartane", *out], "tartane", "mapped")
-    refused(["impact", name, *HIT, "-o", "out.txt"], "out.txt", ".csv")
     refused(["impact", name, *HIT, "-o", "no/out.csv"], "no/out.csv", "does not exist")
-    refused(["press", name, "--particle", "grain", "--depth", "2", *out], "--depth", "0.8")
-    refused(["press", name, "--particle", "grain", "--depth", "0.1", "--support", "fre", *out], "fre", "midplane")
     refused(["impact", name, *HIT, "--courant", "1.1", *out], "--courant", "unstable above 1", "1.1", "0.05 to 1")
-    refused(["impact", name, *HIT, "--courant", "nan", *out], "--courant", "0.05 to 1")
-    # days of computing, and what a default hides behind 0
+    # days of computing
     refused(["impact", name, "--particle", "grain", "--velocity", "1e-9", *out], "--velocity", "too slow", "1e-10 times")
-    refused(["press", name, "--particle", "grain", "--depth", "1e-9", *out], "--depth", "1e-08 to 0.8")
-    refused(["press", name, "--particle", "grain", "--depth", "0.1", "--ramp", "0", *out], "--ramp", "1 to 1e6")
-    refused(["impact", name, *HIT[:4], "--resolution", "0", *out], "--resolution", "6 to 200")
-    refused(["impact", name, *HIT[:4], "--tolerance", "0", *out], "--tolerance", "1e-4 to 0.5")
-    refused(["table", name, "--pair", "powdr:wall", "-o", "out.h5"], "powdr", "did you mean 'powder'")
-    refused(["table", name, "--pair", "powder", "-o", "out.h5"], "powder", "a:b")
+    refused(["impact", name, "--particle", "grain", "--velocity", "1e5"], "--velocity", "found 100000 m/s", "half the wave speed")
     # a layered body has no law with an unlike one: said before any run is made (and kept in the folder of --cache)
     Path("coated.toml").write_text(GOOD + particle("coated", "powder", 2e-3, 'layers = [{material = "glass", thickness = 1e-4}]'))
     refused(["table", "coated.toml", "--pair", "coated:glass", "--cache", "runs", "-o", "out.h5"], "coated:glass", "no homogeneous sphere")
-    refused(["table", name, "--deck", "in.x", "-o", "out.h5"], "in.x", "cannot be read")
     egg = materials(GOOD + particle("egg", "powder", more='shape = {kind = "ellipsoid", axes = [1e-3, 1e-3, 1.5e-3]}\nlayers = [{material = "glass", thickness = 1e-4}]'))
     refused(["table", egg, "--pair", "egg:wall", "-o", "out.h5"], "[particle.egg]: has a shape in three dimensions and layers")
     materials()
+    refused(["table", name, "--deck", "in.x", "-o", "out.h5"], "in.x", "cannot be read")
     refused(["plan", "in.hopper"], "in.hopper", "cannot be read")
-
-    def broken(old, new, *wanted):
+    for file, old, new, *wanted in (("table", "1500", "-1", ":3:", "density"), ("impact", "radius = 2e-3", "radius = 0", "radius", "over 0")):
+        words = ["table", name, "-o", "out.h5"] if file == "table" else ["impact", materials(GOOD.replace(old, new)), *HIT, *out]
         materials(GOOD.replace(old, new))
-        refused(["impact", name, *HIT, *out], name, *wanted)
-
-    refused(["table", materials(GOOD.replace("1500", "-1")), "-o", "out.h5"], name, ":3:", "density")
-    broken("youngs_modulus = 9.1e9", "youngs_modulus = -9.1e9", ":4:", "youngs_modulus", "-9.1e+09", "over 0")
-    broken("poisson_ratio = 0.3", "poisson_ratio = 0.5", ":5:", "poisson_ratio", "0.5")
-    broken("yield_stress = 100e6", "yield_stress = 2e9", ":6:", "yield_stress", "2e+09 Pa", "a tenth of E*", "1e+09 Pa")
-    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "linear", modulus = 1e11}', ":7:", "modulus", "youngs_modulus")
-    broken("density = 1500", "density = 1500\n" + 400 * "k" + " = 1", ":4:", "unknown key", "kkk...'")
-    broken("density = 1500", "densty = 1500", ":3:", "densty", "did you mean 'density'")
-    broken("density = 1500", "", "density", "missing")
-    broken("density = 1500", 'density = "heavy"', "density", "number", "kg/m^3")
-    broken("density = 1500", "density = nan", "density")
-    broken("density = 1500", "density = ", ":3:")
-    broken('material = "powder"', 'material = "powdr"', "powdr", "did you mean 'powder'")
-    broken("radius = 2e-3", "radius = 0", "radius", "over 0")
-    broken("radius = 2e-3", "radius = 2e-3\nlayers = 3", ":15:", "layers", "list of tables", "thickness")
-    broken("radius = 2e-3", 'radius = 2e-3\nlayers = [{material = "glas", thickness = 1e-5}]', ":15:", "glas", "did you mean 'glass'")
-    broken("radius = 2e-3", 'radius = 2e-3\nlayers = [{material = "glass", thickness = 2e-3}]', ":13:", "no core", "0.002 m")
-    broken("radius = 2e-3", "radius = 2e-3\ninclusions = [{pore = true, radius = 1e-4, z = 5e-5}]", ":13:", "inclusion 1",
-           "surface", "below 5e-05 m")
-    broken("radius = 2e-3", "radius = 2e-3\ninclusions = [{radius = 1e-4, z = 1e-3}]", ":15:", "material", "pore = true")
-    broken("radius = 2e-3", 'radius = 2e-3\nprofile = {shape = "elipsoid", aspect = 2}', ":15:", "elipsoid", "did you mean 'ellipsoid'")
-    broken("radius = 2e-3", 'radius = 2e-3\nprofile = {shape = "ellipsoid", aspect = -1}', ":15:", "aspect", "0.05 to 20")
-    broken("radius = 2e-3", "radius = 2e-3\nprofile = {points = [[0, 0], [1e-3, 1e-3], [0, 2e-3]]}", ":14:", "radius", "0.001 m")
-    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "vose", modulus = 1}', "vose", "did you mean 'voce'")
-    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "voce", modulus = 1}', ":7:", "modulus", "saturation_stress")
-    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "swift", strength = 1e8, exponent = 0.2, ofset = 0.01}',
-           "ofset", "did you mean 'offset'")
-    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "swift", strength = 1e8, exponent = 0.2, offset = 0.01}',
-           "starts at 3.98107e+07 Pa", "yield_stress")
-    broken("yield_stress = 100e6", 'yield_stress = 1e8\nhardening = {law = "tabulated", strain = [0, 0.1], stress = 3}', "stress", "list", "Pa")
-    broken("yield_stress = 100e6", "yield_stress = 1e8\nrate = {a = 1}", "rate", "law")
-    broken("yield_stress = 100e6", 'rate = {law = "cowper-symonds", reference_rate = 40, exponent = 5}', "rate", "yield_stress")
-    broken("[particle.grain]", "[particel.grain]", "particel", "did you mean 'particle'")
+        refused(words, name, *wanted)
     materials()
-
-
-def test_wrong_words(monkeypatch):
-    """Numbers that are none or lie outside, empty words, options that mean nothing here: one sentence each, nothing written."""
-    name = materials()
+    # numbers that are none or lie outside, empty words, options that mean nothing here: nothing is written
     assert Run("table", name, "--pair", "powder:wall", "--pair", "powder:powder", "-o", "law.h5").code == 0
     Path("folder").mkdir()
     Path("other.toml").write_text(GOOD.replace("powder", "flour"))
     table, law = ["table", name, "-o", "new.h5"], ["law", "law.h5", "--pair", "powder:wall", "--velocity", "1"]
-    for depth in ("0.9", "0", "-0.1", "nan", "inf", "20 %"):
-        refused([*table, "--depth", depth], "--depth", f"found '{depth}'", "over 0, up to 0.5", code=2)
-    for option, allowed in (("--tolerance", "0.0001 to 0.5"), ("--damage-number", "0 to 0.09"), ("--radius-ratio", "1 to 10"), ("--slowest", "over 0"),
-                            ("--jobs", "1 to 1024")):
-        for value in ("nan", "-1", "inf", "1e300", "x"):
-            if (option, value) != ("--slowest", "1e300"):
-                refused([*table, option, value], option, f"found '{value}'", allowed, code=2)
-    refused([*table, "--jobs", "1.5"], "--jobs", "found '1.5'", "whole number", code=2)
+    for option, value, allowed in (("--depth", "0.9", "over 0, up to 0.5"), ("--depth", "20 %", "over 0, up to 0.5"), ("--tolerance", "nan", "0.0001 to 0.5"), ("--damage-number", "-1", "0 to 0.09"),
+                                   ("--radius-ratio", "inf", "1 to 10"), ("--slowest", "x", "over 0"), ("--jobs", "1e300", "1 to 1024"), ("--jobs", "1.5", "whole number")):
+        refused([*table, option, value], option, f"found '{value}'", allowed, code=2)
     refused([*table, "--slowest", "0.1"], "--slowest", "no body of the pairs depends on the rate")
     refused([*table, "--cache", name], "--cache", "is no folder")
-    for words in (["--drop-height", "1"], ["--var", "a", "1"], ["--materials", "powder"], ["--from", "x.json"]):
-        refused([*table, *words], words[0], "--deck", code=2)
+    refused([*table, "--drop-height", "1"], "--drop-height", "--deck", code=2)
     refused([*table, "--pair", "powder:wall", "--pair", "wall:powder"], "--pair", "powder:wall", "one pair")
     refused([*table, "--pair", "wall:wall"], "--pair", "'wall:wall'", "a:b or a:wall")
-    refused([*table, "--pair", "powder:"], "--pair", "'powder:'", "a:b or a:wall")
-    refused([*table, "--pair", "grian:wall"], "grian", "did you mean 'grain'", "glass")
-    refused(["impact", name, "--particle", "grain", "--velocity", "1e5"], "--velocity", "found 100000 m/s", "half the wave speed")
-    for words in (["impact", name, "--particle", "grain", "--velocity", ""], ["impact", name, *HIT, "-o", ""], ["impact", name, *HIT, "--checkpoint", ""],
-                  ["table", name, "-o", ""], ["law", "", "--velocity", "1"], [*law[:2], "--pair", "", "--velocity", "1"]):
+    for words in (["impact", name, *HIT, "--checkpoint", ""], ["law", "", "--velocity", "1"]):
         refused(words, words[words.index("") - 1] + ":", "empty word", code=2)
-    for option, value in (("--radius", "0"), ("--radius", "nan"), ("--radius", "1e300"), ("--radius", "1e-300")):
-        refused([*law, option, value], option, "1e-09 to 1000 m")
-    for value in ("1e300", "1e-300", "nan", "0"):
-        refused([*law[:-1], value], "--velocity", "1e-12 to 1e+06 m/s")
-    refused(["law", "law.h5", "--pair", "powder:powder", "--velocity", "1", "--radius2", "0"], "--radius2", "1e-09 to 1000 m")
-    for words in (["none.toml", "no such file"], ["folder", "cannot be read as a file"], ["other.toml", "powder"]):
+    refused([*law, "--radius", "1e-300"], "--radius", "1e-09 to 1000 m")
+    refused([*law[:-1], "1e300"], "--velocity", "1e-12 to 1e+06 m/s")
+    for words in (["folder", "cannot be read as a file"], ["other.toml", "powder"]):
         refused(["check", "law.h5", "--impacts", "1", "--materials", words[0]], *words)
-    refused(["check", "law.h5", "--impacts", "1.5"], "--impacts", "whole number", code=2)
-    refused(["plot", "law.h5", "-o", "/proc/x.png"], "/proc/x.png", "cannot be written to")
-    refused(["plan", "in.deck", "--speed", "inf"], "--speed", "found 'inf'", "over 0", code=2)
     refused(["soften", "in.deck", "--max-overlap", "nan"], "--max-overlap", "0.001 to 0.5", code=2)
     # A script may complain before it reads its data: 150 kB beside 100 kB of data
     many = programs.table(GOOD, "--radius-ratio", "10", "--pair", "powder:glass")
@@ -356,7 +293,8 @@ def test_usage():
         assert text.code == 0 and (command == "plan" or "Example: mpm " + command in text.out), command
     stopped = subprocess.Popen([MPM, "impact", name, "--particle", "grain", "--velocity", "0.3", "--resolution", "32",
                                 "-o", "late.csv"], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-    time.sleep(0.5)
+    while signal.SIGINT not in signals_caught(stopped.pid):
+        time.sleep(0.001)
     stopped.send_signal(signal.SIGINT)
     err = stopped.communicate(timeout=60)[1]
     assert stopped.returncode == 130 and err.endswith("mpm: stopped\n"), (stopped.returncode, err)
@@ -472,24 +410,18 @@ def test_law():
     assert fast["error_estimate"] is None  # nothing was shown there
     refused(["law", LAW, "--pair", "powder:wall", "--velocity", "200"], "range of overlaps", "5 %")
     refused(["law", LAW, "--velocity", "1"], "--pair", "powder:wall")
-    refused(["law", LAW, "--pair", "powdr:wall", "--velocity", "1"], "did you mean 'powder'")
-    refused(["law", LAW, "--pair", "powder:wall", "--velocity", "0"], "--velocity", "1e-12 to 1e+06 m/s")
-    data = Path(LAW).read_bytes()
-    for command in (["check"], ["info"], ["law", "--pair", "powder:wall", "--velocity", "1"], ["plot", "-o", "x.png"]):
-        Path("cut.h5").write_bytes(data[: len(data) // 2])
-        refused([command[0], "cut.h5", *command[1:]], "cut.h5", "cut off")
-        Path("cut.h5").write_bytes(data)
-        with h5py.File("cut.h5", "r+") as file:
-            file.attrs.modify("version_major", np.int32(5))
-        refused([command[0], "cut.h5", *command[1:]], "major version", "found 5", "allowed is 4")
+    Path("cut.h5").write_bytes(Path(LAW).read_bytes()[:-1000])
+    refused(["check", "cut.h5"], "cut.h5", "cut off")
+    Path("cut.h5").write_bytes(Path(LAW).read_bytes())
+    with h5py.File("cut.h5", "r+") as file:
+        file.attrs.modify("version_major", np.int32(5))
+    refused(["plot", "cut.h5", "-o", "x.png"], "major version", "found 5", "allowed is 4")
     assert Run("plot", LAW, "-o", "law.png").code == 0 and Path("law.png").stat().st_size > 10000
     for name, words in (("like", ["powder:powder", "--radius", "1e-3", "--radius2", "inf"]), ("wall", ["wall:powder", "--velocity", "3"])):
         done = Run("plot", LAW, "--pair", *words, "-o", f"{name}.png")
         assert done.out == f"wrote {name}.png\n" and Path(f"{name}.png").stat().st_size > 10000, done.err
-    refused(["plot", LAW, "--pair", "powdr:glass", "-o", "x.png"], "did you mean 'powder'")
     refused(["plot", LAW, "--pair", "powder:wall", "--radius2", "1e-3", "-o", "x.png"], "--radius2", "no radius")
     refused(["plot", LAW, "--radius", "1e-3", "-o", "x.png"], "--radius", "--pair", code=2)
-    refused(["plot", LAW, "--pair", "powder:wall", "--velocity", "0", "-o", "x.png"], "--velocity", "a number over 0", code=2)
     refused(["plot", LAW, "--pair", "powder:wall", "-o", "/proc/x.png"], "/proc/x.png", "cannot be written to")
 
 
@@ -650,9 +582,6 @@ def test_export():
         assert abs(forces[ratio] / hit["force_max_N"] - 1) < 5e-4, (ratio, forces[ratio], hit["force_max_N"])
     refused(["export", "pair.h5", "-o", "x.csv", "--radius-ratio", "0"], "--radius-ratio", "over 0", code=2)
     refused(["export", LAW, "-o", "x.txt"], "x.txt", ".csv")
-    refused(["export", LAW, "-o", "none/x.csv"], "'none' does not exist")
-    refused(["export", LAW, "-o", "x.csv", "--pair", "powdr:wall"], "did you mean 'powder'")
-    refused(["export", LAW, "-o", "x.csv", "--effective-radius", "0"], "--effective-radius", "over 0")
     refused(["export", LAW, "-o", "x.csv", "--dimensionless", "--effective-radius", "1"], "--effective-radius", code=2)
 
 
@@ -714,18 +643,12 @@ def test_checkpoint():
     assert stopped.communicate(timeout=300)[1] == "mpm: stopped\n" and stopped.returncode == 130
     assert file.exists()
 
-    # what is refused is left as it is
+    # what is refused is left as it is; all that makes another run, and every damage: tests/unit/checkpoint_file_test.cpp
     kept = ["--checkpoint", file]
     refused([*words[:5], "0.4", *words[6:], *kept], str(file), "another run", "--velocity", "0.3", "0.4")
-    refused([*words[:7], "63", *kept], str(file), "another run", "--resolution")
-    refused([*words, *kept, "--precision", "single"], str(file), "another run", "--precision")
     refused([*words, *kept, "--grid", "tartan"], str(file), "another run", "--grid")
-    refused([*words, *kept, "--no-estimate"], str(file), "another run", "--no-estimate")
-    refused([*words[:6], "--tolerance", "0.1", *kept], str(file), "another run")
     refused([*words, *kept, "--wall", "glass"], str(file), "another run", "partner")
     refused(["press", name, "--particle", "grain", "--depth", "0.02", *kept], str(file), "another run", "press")
-    refused([*words, *kept, "--courant", "0.8"], str(file), "another run", "courant")
-    refused([*words, *kept, "--phases", "2"], str(file), "another run", "shifted grids")
     os.environ["GRANULAW_ISA"] = "generic"
     if "avx" in Path("/proc/cpuinfo").read_text():
         refused([*words, *kept], str(file), "another run", "instruction set")
@@ -733,21 +656,11 @@ def test_checkpoint():
     materials(GOOD.replace("100e6", "101e6"))
     refused([*words, *kept], str(file), "another run", "materials")
     materials("# a remark changes nothing\n" + GOOD)
-    whole = file.read_bytes()
-    for damaged in (whole[:-1], whole + b"x", whole[:len(whole) // 2], whole[:40], whole[:-9] + bytes([whole[-9] ^ 1]) + whole[-8:]):
-        file.write_bytes(damaged)
-        refused([*words, *kept], str(file), "cut off or damaged")
-    for other in (b"", b"no checkpoint"):
-        file.write_bytes(other)
-        refused([*words, *kept], str(file), "is no checkpoint")
-    file.unlink()
+    file.write_bytes(file.read_bytes()[:-1])
+    refused([*words, *kept], str(file), "cut off or damaged")
     refused([*words, "--checkpoint", name], name, "is no checkpoint")
     refused([*words, "--checkpoint", "none/x"], "--checkpoint", "'none' does not exist")
-    refused([*words, "--checkpoint", "."], "--checkpoint", "folder")
-    refused([*words, "--checkpoint", "t.csv", "-o", "t.csv"], "--checkpoint", "t.csv")
-    refused([*words, *kept, "--fields", "f.xdmf"], "--checkpoint", "--fields")
     refused([*words, "--checkpoint-every", "5"], "--checkpoint", code=2)
-    refused([*words, *kept, "--checkpoint-every", "-1"], "--checkpoint-every", code=2)
 
 
 def test_predict():
@@ -775,9 +688,14 @@ def test_atlas():
     assert made.code == 0 and "20 fresh impacts" in made.out, made.out + made.err
     with h5py.File(own) as old, h5py.File("new.h5") as new:
         assert set(old) == set(new), set(old) ^ set(new)
-        for name in set(old) - {"checks", "elastic_spheres"}:  # elastic presses are run again
-            assert np.array_equal(old[name][()], new[name][()]), name
-        assert np.allclose(old["elastic_spheres"][()], new["elastic_spheres"][()], rtol=1e-4), "other presses"
+        # Presses are run again, maybe on another processor: AVX2 and AVX-512 differ by up to 2e-6 of F (docs/evidence/solver-accuracy.md). A change is a difference of
+        # logarithms of 5e-3 (the median), so 2e-6 of F are 4e-4 of it. Checks are fresh by the seed.
+        again = {"elastic_spheres": 1e-4, "midplane_elastic": 2e-6}
+        for name in set(old) - {"checks", "midplane_press_checks", "midplane_change"}:
+            a, b = old[name][()], new[name][()]
+            assert np.allclose(a, b, rtol=again[name]) if name in again else np.array_equal(a, b), name
+        a, b = (file["midplane_change"][()] for file in (old, new))
+        assert np.abs(a - b).max() < 1e-3 * np.abs(a).max()
         told = np.asarray(new["checks"]).reshape(20, 7)
         assert np.median(np.abs(told[:, 4])) < 0.005 and np.median(np.abs(told[:, 5])) < 0.003, told  # measured .0018, .0009
 
@@ -898,12 +816,10 @@ def test_bad_decks():
             ("units si\nfix m all mesh/surface file bad type 1\n", "bad:2")):
         Path("bad").write_text(text)
         refused(["plan", "bad"], *wanted)
-    refused(["plan", "missing"], "missing")
     refused(["plan", "."], "cannot be read")
     Path("bad").write_text("units si\n")
     refused(["plan", "bad", "--from", name], "fix granulaw/stats")
     refused(["plan", "bad", "--materials", "powder"], "--materials-file")
-    refused(["plan", "bad", "--speed", "-1"], "--speed", code=2)
     # cut off anywhere, or damaged, our own deck gives a plan, or one sentence
     deck = (ROOT / "examples/hopper/in.hopper").read_text()
     random = np.random.default_rng(1)
