@@ -42,9 +42,17 @@ class EnergyTally
 
   ParticleColumns per_atom;                   ///< `energies`; false: not there yet
   ParticleColumns dissipated_energy;          ///< `lost`; false: not asked for
-  double law_force = 0;                       ///< N, of the law alone, in the contact computed last
-  double law_force_behind = 0;  ///< N, the same where the next step begins: a tangential law may change the depth
-  ContactStatistics::Pair* counts = nullptr;  ///< of that contact
+
+  /// The step of the contact computed last, as the element booked it.
+  struct Booked
+  {
+    ContactStatistics::Pair* counts = nullptr;
+    double law_force = 0;         ///< N, of the normal law alone
+    double law_force_behind = 0;  ///< N, the same where the next step begins: a tangential law may change the depth
+    double deepened = 0;          ///< J, that the law lost and holds more by such a change
+    double work = 0;              ///< J, of all but the normal law that stands elsewhere in the statistics
+  };
+  Booked booked;
 
   /// Adds the properties where they are asked for. Collective.
   static void provide(LAMMPS_NS::LAMMPS* lmp, bool energy, bool dissipated)
@@ -79,7 +87,7 @@ class EnergyTally
     if (!sidata.computeflag) return;
     const double* n = sidata.en;
     double force[3], couple[3];
-    for (int c = 0; c < 3; ++c) force[c] = i_forces.delta_F[c] - law_force * n[c];
+    for (int c = 0; c < 3; ++c) force[c] = i_forces.delta_F[c] - booked.law_force * n[c];
     Vector arm = cross(n, force);  // torque on i is -cri en x F, and the couple
     for (int c = 0; c < 3; ++c) couple[c] = i_forces.delta_torque[c] + sidata.cri * arm[c];
 
@@ -96,10 +104,10 @@ class EnergyTally
         if (!sidata.is_wall) power -= (mean_couple[c] + sidata.crj * arm[c]) * sidata.omega_j[c];
       }
       const double taken = -power * dt;
-      counts->other_work += (sidata.is_wall || sidata.j < nlocal ? 1.0 : 0.5) * taken;
-      share(sidata, other_work, taken, nlocal);
+      booked.counts->other_work += (sidata.is_wall || sidata.j < nlocal ? 1.0 : 0.5) * (taken - booked.work);
+      share(sidata, other_work, taken - booked.deepened, nlocal);
     }
-    for (int c = 0; c < 3; ++c) last[c] = force[c] + (law_force - law_force_behind) * n[c], last[3 + c] = couple[c];
+    for (int c = 0; c < 3; ++c) last[c] = force[c] + (booked.law_force - booked.law_force_behind) * n[c], last[3 + c] = couple[c];
   }
 
  private:

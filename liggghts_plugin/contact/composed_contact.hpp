@@ -6,15 +6,14 @@
 
 #include "liggghts_plugin/books/energy_tally.hpp"
 #include "liggghts_plugin/contact/contact_pieces.hpp"
-#include "liggghts_plugin/contact/own_tangential.hpp"
-#include "liggghts_plugin/contact/normal_host.hpp"
+#include "liggghts_plugin/contact/element_host.hpp"
 
 namespace granulaw::plugin {
 
-/// A contact of five pieces, in the place of LIGGGHTS's own (ContactModels::ContactModel): a normal model of
-/// ours, and LIGGGHTS's surface, cohesion, tangential and rolling models, each Fixed, Chosen or Off. With
-/// `energy on` it books the work of all but the normal law.
-template <NormalPhysics OwnPhysics, int surface, class Cohesion, class Tangential, class Rolling>
+/// A contact in the place of LIGGGHTS's own (ContactModels::ContactModel): LIGGGHTS's surface model, the contact element of a
+/// normal and a tangential law, and LIGGGHTS's cohesion and rolling model. `Other`: of these, Off or Chosen; where one is on
+/// it costs a virtual call. With `energy on` it books the work of all but the normal law.
+template <NormalPhysics OwnPhysics, class Tangential, template <class> class Other, int surface = cm::SURFACE_DEFAULT>
 class ComposedContact final : public cm::ContactModelBase
 {
   using ForceData = cm::ForceData;
@@ -28,14 +27,14 @@ class ComposedContact final : public cm::ContactModelBase
       : ContactModelBase(lmp, is_wall),
         lmp_(lmp),
         ids_(ModelIds::of(hash)),
-        surface_(lmp, hsetup, this, surface),
-        normal_(lmp, hsetup, this, ids_.normal),
+        surface_(lmp, hsetup, this),
+        element_(lmp, *hsetup, *this),
         cohesion_(lmp, hsetup, this, ids_.cohesion),
-        tangential_(lmp, hsetup, this, ids_.tangential),
         rolling_(lmp, hsetup, this, ids_.rolling)
   {
-    if constexpr (requires { tangential_->follow(*normal_.operator->()); }) tangential_->follow(*normal_.operator->());
   }
+  /// The command's setup; it is read before postSettings.
+  void take(const Setup& setup) { setup_ = &setup; }
 
   int64_t hashcode() const { return ids_.hash(); }
   bool contact_match(const std::string& kind, const std::string& model) const
@@ -50,12 +49,14 @@ class ComposedContact final : public cm::ContactModelBase
 
   void registerSettings(Settings& settings)
   {
-    each([&](auto& piece) { piece->registerSettings(settings); });
+    element_.registerSettings(settings);
+    each_of_liggghts([&](auto& piece) { piece.registerSettings(settings); });
   }
   void postSettings(LIGGGHTS::IContactHistorySetup* hsetup)
   {
-    each([&](auto& piece) { piece->postSettings(hsetup, this); });
-    tally_ = Setup::current->session->energy;
+    element_.postSettings(*setup_, *hsetup);
+    each_of_liggghts([&](auto& piece) { piece.postSettings(hsetup, this); });
+    tally_ = setup_->session->energy;
     if (!tally_) return;
     for (int k = 0; k < EnergyTally::history_values; ++k) {
       const int offset = hsetup->add_history_value(fmt::format("other_force_{}", k), "1");
@@ -64,16 +65,17 @@ class ComposedContact final : public cm::ContactModelBase
   }
   void connectToProperties(PropertyRegistry& registry)
   {
-    each([&](auto& piece) { piece->connectToProperties(registry); });
+    element_.connectToProperties(registry);
+    each_of_liggghts([&](auto& piece) { piece.connectToProperties(registry); });
   }
-  double stressStrainExponent() { return normal_->stressStrainExponent(); }
-  void tally_pp(double value, int i, int j, int index) override { surface_->tally_pp(value, i, j, index); }
-  void tally_pw(double value, int i, int j, int index) override { surface_->tally_pw(value, i, j, index); }
+  double stressStrainExponent() { return 1.5; }
+  void tally_pp(double value, int i, int j, int index) override { surface_.tally_pp(value, i, j, index); }
+  void tally_pw(double value, int i, int j, int index) override { surface_.tally_pw(value, i, j, index); }
 
   /// True: particles that do not touch may act on each other.
   bool acts_at_distance() const
   {
-    if constexpr (requires { Cohesion::always_off; })
+    if constexpr (requires { cohesion_.always_off; })
       return false;
     else
       return ids_.has_bridges();
@@ -81,19 +83,24 @@ class ComposedContact final : public cm::ContactModelBase
 
   void beginPass(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j)
   {
-    each([&](auto& piece) { piece->beginPass(contact, on_i, on_j); });
+    each_of_liggghts([&](auto& piece) { piece.beginPass(contact, on_i, on_j); });
   }
   void endPass(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j)
   {
-    each([&](auto& piece) { piece->endPass(contact, on_i, on_j); });
+    each_of_liggghts([&](auto& piece) { piece.endPass(contact, on_i, on_j); });
   }
-  bool checkSurfaceIntersect(SurfacesIntersectData& contact)
-  {
-    return surface_->checkSurfaceIntersect(contact);
-  }
+  bool checkSurfaceIntersect(SurfacesIntersectData& contact) { return surface_.checkSurfaceIntersect(contact); }
   void surfacesIntersect(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j)
   {
-    each([&](auto& piece) { piece->surfacesIntersect(contact, on_i, on_j); });
+    surface_.surfacesIntersect(contact, on_i, on_j);
+    if constexpr (requires { cohesion_.always_off; })
+      element_.surfacesIntersect(contact, on_i, on_j, nullptr);
+    else {
+      element_.surfacesIntersect(contact, on_i, on_j, [&] {
+        if (cohesion_) cohesion_->surfacesIntersect(contact, on_i, on_j);
+      });
+      if (rolling_) rolling_->surfacesIntersect(contact, on_i, on_j);
+    }
     if (tally_) [[unlikely]]
       tally_->account(contact, on_i, &contact.contact_history[offset_], lmp_->update->dt,
                       lmp_->atom->nlocal);
@@ -101,55 +108,48 @@ class ComposedContact final : public cm::ContactModelBase
   void endSurfacesIntersect(SurfacesIntersectData& contact, LAMMPS_NS::TriMesh* mesh, ForceData& on_i,
                             ForceData& on_j)
   {
-    surface_->endSurfacesIntersect(contact, mesh, on_i.delta_F);
+    surface_.endSurfacesIntersect(contact, mesh, on_i.delta_F);
     if (cohesion_) cohesion_->endSurfacesIntersect(contact, on_i, on_j);
   }
-  void surfacesClose(cm::SurfacesCloseData& contact, ForceData& on_i, ForceData& on_j)
+  void surfacesClose(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j)
   {
-    each([&](auto& piece) { piece->surfacesClose(contact, on_i, on_j); });
-    if (tally_ && contact.contact_history)
-      std::fill_n(&contact.contact_history[offset_], EnergyTally::history_values, 0.0);
+    element_.surfacesClose(contact);
+    each_of_liggghts([&](auto& piece) { piece.surfacesClose(contact, on_i, on_j); });
+    if (tally_ && contact.contact_history) [[unlikely]]
+      account_gap(contact, on_i);
   }
 
  private:
-  /// Calls visit for each piece that is on, in LIGGGHTS's order.
+  /// Calls visit for each piece of LIGGGHTS's that is on, in its order.
   template <class Visit>
-  [[gnu::always_inline]] void each(Visit&& visit)
+  [[gnu::always_inline]] void each_of_liggghts(Visit&& visit)
   {
     visit(surface_);
-    visit(normal_);
-    if (cohesion_) visit(cohesion_);
-    if (tangential_) visit(tangential_);
-    if (rolling_) visit(rolling_);
+    if (cohesion_) visit(*cohesion_.operator->());
+    if (rolling_) visit(*rolling_.operator->());
+  }
+
+  /// The work of a force over a gap, also in the step that ends it.
+  [[gnu::noinline, gnu::cold]] void account_gap(SurfacesIntersectData contact, const ForceData& on_i)
+  {
+    double* last = &contact.contact_history[offset_];
+    if (!contact.has_force_update && std::all_of(last, last + EnergyTally::history_values, [](double f) { return f == 0.0; })) return;
+    const double distance = norm({contact.delta[0], contact.delta[1], contact.delta[2]});
+    for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] / distance;
+    contact.cri = contact.radi, contact.crj = contact.radj;
+    element_.book_gap(contact);
+    tally_->account(contact, on_i, last, lmp_->update->dt, lmp_->atom->nlocal);
   }
 
   LAMMPS* lmp_;
   ModelIds ids_;
-  Fixed<cm::SurfaceModel<surface>> surface_;
-  Fixed<NormalHost<Physics>> normal_;
-  Cohesion cohesion_;
-  Tangential tangential_;
-  Rolling rolling_;
+  const Setup* setup_ = nullptr;
+  cm::SurfaceModel<surface> surface_;
+  ElementHost<Physics, Tangential> element_;
+  Other<cm::CohesionModelBase> cohesion_;
+  Other<cm::RollingModelBase> rolling_;
   EnergyTally* tally_ = nullptr;
   int offset_ = -1;  // in the history: the forces that the tally keeps
 };
-
-/// Most decks: all of it in one loop.
-template <NormalPhysics Physics>
-using UsualContact =
-    ComposedContact<Physics, cm::SURFACE_DEFAULT, Off<cm::CohesionModelBase>,
-                    Fixed<cm::TangentialModel<cm::TANGENTIAL_HISTORY>>, Off<cm::RollingModelBase>>;
-
-/// A tangential law of ours, which the normal law shares its memory with. `Other`: of the cohesion and the rolling
-/// model, Off or Chosen.
-template <NormalPhysics Physics, class Law, template <class> class Other>
-using OwnContact =
-    ComposedContact<Physics, cm::SURFACE_DEFAULT, Other<cm::CohesionModelBase>,
-                    Fixed<OwnTangential<Physics, Law>>, Other<cm::RollingModelBase>>;
-
-/// All others, with a virtual call for each model that is on: docs/evidence/loop-time.md has the cost.
-template <NormalPhysics Physics, int surface = cm::SURFACE_DEFAULT>
-using AnyContact = ComposedContact<Physics, surface, Chosen<cm::CohesionModelBase>,
-                                   Chosen<cm::TangentialModelBase>, Chosen<cm::RollingModelBase>>;
 
 }  // namespace granulaw::plugin

@@ -35,7 +35,7 @@ class ContactCounts
   /// approach speed at first touch (`contactMap on`).
   void keep_radius_at(int offset) { radius_offset_ = offset; }
   void keep_speed_at(int offset) { speed_offset_ = offset; }
-  /// The same of the largest overlap, where a tangential law changes the one that the normal law keeps.
+  /// The same of the largest overlap, where a tangential law takes along the depth that the normal law keeps.
   void keep_largest_at(int offset) { largest_offset_ = offset; }
 
   /// Part of a contact that this rank accounts for, 1 or 0.5: see ContactStatistics. Without a branch: which
@@ -59,50 +59,45 @@ class ContactCounts
     move_in_histogram(counts, contact.contact_history, largest, delta, r_eff, weight);
   }
 
-  /// A step that takes the law deeper than it ever was: from `delta_max`, which is 0 if it begins.
-  /// `kept`: of the law.
-  void deepen(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double impact_overlap,
-              double delta_max, double* kept) const
+  /// A step that takes the law deeper than it ever was: from `delta_max`, which is 0 if it begins. False: no motion paid for it.
+  [[gnu::always_inline]] bool grows(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double impact_overlap,
+                                    double delta_max) const
   {
     ContactStatistics::Pair& counts = *entry.counts;
     const double weight = this->weight(contact), delta = contact.deltan;
     bool sudden = false;
     if (delta_max == 0.0) [[unlikely]]
       sudden = begin(counts, contact, entry, r_eff, weight);
-    if (largest_offset_ < 0) [[likely]]
-      reach(contact, entry, r_eff, delta_max);
+    if constexpr (!Entry::Element::deepens) reach(contact, entry, r_eff, delta_max);
     // Hertz's frequency grows as R* delta/m*^2 does: only a contact that leads by this measure is looked at
     if (r_eff * delta > counts.hardest * contact.meff * contact.meff) [[unlikely]] {
       counts.hardest = r_eff * delta / (contact.meff * contact.meff);
       counts.run_frequency2 =
           std::max(counts.run_frequency2,
-                   entry.contact.stiffness(r_eff, delta, impact_overlap) / contact_mass(*bodies_, contact));
+                   entry.element.normal.stiffness(r_eff, delta, impact_overlap) / contact_mass(*bodies_, contact));
       counts.frequency2 = std::max(counts.frequency2, counts.run_frequency2);
     }
     if (sudden) [[unlikely]] {  // no motion paid for what it holds
       counts.sudden += weight;
-      counts.brought += weight * entry.contact.stored_energy(r_eff, delta, delta, impact_overlap);
-    } else {
-      const double dissipated = dissipation_of(entry.contact, r_eff, delta_max, delta, impact_overlap, kept);
-      counts.taken[Mechanism::plastic] += weight * dissipated;
-      if (energy_) [[unlikely]]
-        energy_->share(contact, EnergyTally::dissipated, dissipated, lmp_->atom->nlocal);
+      counts.brought += weight * entry.element.normal.stored_energy(r_eff, delta, delta, impact_overlap);
     }
+    return !sudden;
   }
 
-  /// A contact whose depth, the largest overlap that its law takes, the tangential law changed. That has booked the
-  /// loss; what the law holds more at the same overlap came from the shear.
-  void change_depth(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double impact_overlap,
-                    double from, double to) const
+  /// reach(), where a tangential law takes the depth along and the history has the largest overlap beside it.
+  void reach_further(const SurfacesIntersectData& contact, const Entry& entry, double r_eff) const
   {
-    if (!energy_) return;
-    const double held = entry.contact.stored_energy(r_eff, contact.deltan, to, impact_overlap) -
-                        entry.contact.stored_energy(r_eff, contact.deltan, from, impact_overlap);
-    const double lost = entry.contact.dissipated(r_eff, from, to, impact_overlap);
-    energy_->share(contact, EnergyTally::dissipated, lost, lmp_->atom->nlocal);
-    energy_->share(contact, EnergyTally::stored, held, lmp_->atom->nlocal);
-    energy_->share(contact, EnergyTally::other_work, -(lost + held), lmp_->atom->nlocal);  // the shear's work, booked there
-    entry.counts->other_work -= this->weight(contact) * held;
+    double& largest = contact.contact_history[largest_offset_];
+    if (!(contact.deltan > largest)) return;
+    reach(contact, entry, r_eff, largest);
+    largest = contact.deltan;
+  }
+
+  /// Work that the element booked in a step.
+  [[gnu::always_inline]] void book(const SurfacesIntersectData& contact, const Entry& entry, const Ledger& books) const
+  {
+    for (const MechanismText& m : mechanisms)
+      if (m.in_statistics && books[m.which] != 0.0) entry.counts->taken[m.which] += weight(contact) * books[m.which];
   }
 
   /// A step that takes the contact from the table's end `by` deeper, at the law's force there. `first`: the first one.
@@ -134,24 +129,12 @@ class ContactCounts
     return !contact.is_non_spherical && contact.deltan > sudden_start * overlap_of_a_step(contact);
   }
 
-  /// Books what waves take in a step. Work that this misses stands with the other forces, which are measured,
-  /// waves among them.
-  void radiate(const SurfacesIntersectData& contact, const Entry& entry, double waves_force,
-               double normal_force) const
-  {
-    if (!contact.computeflag || !contact.shearupdate) return;
-    const double taken = weight(contact) * work_of_waves(waves_force, -contact.vn, normal_force, contact.meff,
-                                                         lmp_->update->dt);
-    entry.counts->taken[Mechanism::waves] += taken;
-    if (energy_) [[unlikely]]
-      entry.counts->other_work -= taken;
-  }
-
   /// A contact that ended stays in the histogram, at its largest overlap.
-  void forget_speed(double* history) const
+  void forget(double* history) const
   {
-    if (speed_offset_ >= 0) [[unlikely]]
-      history[speed_offset_] = 0.0;
+    for (const int offset : {speed_offset_, largest_offset_})
+      if (offset >= 0) [[unlikely]]
+        history[offset] = 0.0;
   }
 
   /// Takes a contact that is open out of the histograms.
@@ -174,9 +157,9 @@ class ContactCounts
     counts.damage_number_max =
         std::max(counts.damage_number_max, entry.damage_number_per_speed2 * speed * speed);
     const double mass = contact_mass(*bodies_, contact);
-    if (speed > entry.contact.max_speed(r_eff, mass)) counts.too_fast += weight;
+    if (speed > entry.element.normal.max_speed(r_eff, mass)) counts.too_fast += weight;
     // one without approach follows the rate-independent law: the file holds that
-    if (speed > 0.0 && speed < entry.contact.min_speed(r_eff, mass)) counts.too_slow += weight;
+    if (speed > 0.0 && speed < entry.element.normal.min_speed(r_eff, mass)) counts.too_slow += weight;
     if (speed_offset_ >= 0) [[unlikely]]
       contact.contact_history[speed_offset_] = speed;
     // of superquadrics rotations bring overlap, too

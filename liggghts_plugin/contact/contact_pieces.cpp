@@ -95,13 +95,6 @@ const Names& surface_names()
 }  // namespace
 
 template <>
-std::unique_ptr<cm::TangentialModelBase> Chosen<cm::TangentialModelBase>::make(
-    LAMMPS* lmp, LIGGGHTS::IContactHistorySetup* hsetup, cm::ContactModelBase* contact, int id)
-{
-  return make_model<cm::TangentialModelBase, cm::TangentialModel>(Tangential{}, lmp, hsetup, contact, id);
-}
-
-template <>
 std::unique_ptr<cm::CohesionModelBase> Chosen<cm::CohesionModelBase>::make(
     LAMMPS* lmp, LIGGGHTS::IContactHistorySetup* hsetup, cm::ContactModelBase* contact, int id)
 {

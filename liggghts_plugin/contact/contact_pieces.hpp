@@ -34,19 +34,6 @@ struct ModelIds
   }
 };
 
-/// A model that the code names. Nothing can override it: its calls are inlined.
-template <class Model>
-class Fixed final : public Model
-{
- public:
-  Fixed(LAMMPS* lmp, LIGGGHTS::IContactHistorySetup* hsetup, cm::ContactModelBase* contact, int)
-      : Model(lmp, hsetup, contact)
-  {
-  }
-  constexpr explicit operator bool() const { return true; }
-  Fixed* operator->() { return this; }
-};
-
 /// A model that the deck names, behind its base class; none where it is off.
 template <class Base>
 class Chosen

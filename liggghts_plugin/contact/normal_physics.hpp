@@ -11,7 +11,7 @@
 #include "liggghts_plugin/deck/types.hpp"
 
 // Parts of a normal model: NAME_physics.hpp, NAME_physics.cpp and a line in models.list.
-// docs/guide/new-contact-model.md shows one. NormalHost adds history, damping, tangential stiffness and
+// docs/guide/new-contact-model.md shows one. ElementHost adds history, damping, tangential stiffness and
 // statistics, and LIGGGHTS's loops call it.
 //
 // Nothing here needs LIGGGHTS's headers, so that a model's keywords and formulas can be tested without it.

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "law/contact_limits.hpp"
 #include "contact/body_behind.hpp"
+#include "contact/element.hpp"
 #include "contact/pair.hpp"
 #include "contact/plastic_shear.hpp"
 #include "liggghts_plugin/contact/normal_physics.hpp"
@@ -21,8 +22,9 @@ namespace granulaw::plugin {
 /// Tangential force as the deck sets it.
 struct TangentialChoice
 {
-  double damping = 0.0;   ///< fraction of critical
-  bool computed = false;  ///< stiffness from the law's contact radius, not from Hertz's
+  double damping = 0.0;         ///< fraction of critical
+  bool computed = false;        ///< stiffness from the law's contact radius, not from Hertz's
+  double** friction = nullptr;  ///< coefficient, by types; null: no friction
 };
 
 /// Which pair of types a contact belongs to; at a wall `jtype` is the wall's.
@@ -34,22 +36,21 @@ inline PairKey pair_key(const Setup& setup, int itype, int jtype)
 
 /// Data of each pair of atom types for the contact loop: the law, and numbers derived from the moduli. In the
 /// deck's units, stretched.
-template <NormalPhysics Physics>
+template <NormalPhysics Physics, class Tangential>
 class PairTable
 {
  public:
   using Contact = typename Physics::Contact;
+  using Element = ContactElement<Contact, Tangential>;
 
   // Members read at every step come first.
   struct alignas(64) Entry
   {
+    using Element = PairTable::Element;
     double largest_overlap = -1.0;    // over R*, that the law holds for; -1: no law for this pair of types
-    double tangential = 0.0;          // k_t over the contact radius: 8 G* (Mindlin), stretched
-    double damping = 0.0;             // normal damping over sqrt(sqrt(R* d) m*)
-    double tangential_damping = 0.0;  // Mindlin's, over the same
-    double yield_overlap = 0.0;       // over R*
     ContactStatistics::Pair* counts = nullptr;  // this pair of types in the contact statistics
-    Contact contact;
+    Element element;
+    ShearPair shear;  // Mindlin's, stretched
     double damage_number_per_speed2 =
         0.0;  // I = rho V^2/Y of the yielding body over (relative speed)^2, s^2/m^2
     double behind_i = 0.0, behind_j = 0.0;  // k/E*, stretched, of the bodies behind a contact (body_behind.hpp)
@@ -64,28 +65,6 @@ class PairTable
     return entries_[pair * laws_ + finders_[pair].nearest(radius_i, radius_j)];
   }
 
-  std::size_t place(const Entry& entry) const { return static_cast<std::size_t>(&entry - entries_.data()); }
-  /// A tangential law of ours for each entry, at its place. `friction`: coefficient by types; `check` may refuse a
-  /// contact for it.
-  template <class Law, class Check>
-  std::vector<Law> tangential_laws(double** friction, const Check& check) const
-  {
-    std::vector<Law> laws(entries_.size());
-    for (int i = 1; i < stride_; ++i)
-      for (int j = 1; j < stride_; ++j)
-        for (std::size_t k = 0; k < laws_; ++k) {
-          const Entry& entry = first_entry(i, j)[k];
-          if (entry.largest_overlap < 0) continue;
-          if (entry.counts->info.needed) check(entry.contact);
-          const ShearPair spring{entry.tangential, friction[i][j], entry.tangential_damping};
-          if constexpr (std::constructible_from<Law, const Contact&, const ShearPair&, const BodiesInShear&>)
-            laws[place(entry)] = Law(entry.contact, spring, in_shear_[pair_of(i, j)]);
-          else
-            laws[place(entry)] = Law(spring);
-        }
-    return laws;
-  }
-
   /// True if waves take a part of the contacts of any pair. One answer for all, as a contact loop cannot
   /// foresee which types meet next.
   bool radiates() const { return radiates_; }
@@ -98,7 +77,6 @@ class PairTable
     stride_ = types.count + 1;
     find_choices(physics, setup, types.count, sizes);
     entries_.assign(choices_.size() * laws_, Entry{});
-    in_shear_.assign(choices_.size(), BodiesInShear{});
     for (int i = 1; i <= types.count; ++i)
       for (int j = 1; j <= types.count; ++j) {
         if (std::isnan(types.youngs_modulus[i]) || std::isnan(types.youngs_modulus[j])) continue;
@@ -106,12 +84,12 @@ class PairTable
           resolve_types(physics, setup, sizes, i, j);
         } catch (const granulaw::Error&) {
           if (types.can_meet(i, j, is_wall)) throw;
-          continue;  // NormalHost::beyond_table says so if such particles meet after all
+          continue;  // ElementHost::beyond_table says so if such particles meet after all
         }
-        in_shear_[pair_of(i, j)] = in_shear(types, i, is_wall && !setup.options.deformable_wall ? 0 : j, tangential.damping);
         each_entry(i, j, [&](Entry& entry) {
-          complete(entry, setup.options.stretch.value_or(1.0), tangential, in_shear(types, i, j, tangential.damping).stiffness,
-                   damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
+          complete(entry, setup.options.stretch.value_or(1.0), tangential, tangential.friction ? tangential.friction[i][j] : 0.0,
+                   in_shear(types, i, j, tangential.damping).stiffness, damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
+          complete_tangential(entry, in_shear(types, i, is_wall && !setup.options.deformable_wall ? 0 : j, tangential.damping));
           entry.behind_i = behind(types, i, setup.options.stretch.value_or(1.0));
           entry.behind_j = is_wall ? 0.0 : behind(types, j, setup.options.stretch.value_or(1.0));
         });
@@ -143,7 +121,7 @@ class PairTable
         if (!is_wall && j < i) continue;  // described as i, j
         std::optional<PairInfo> all;
         each_entry_in_use(i, j, sizes, [&](const Entry& entry, std::size_t k) {
-          const PairInfo one = describe(physics, entry.contact, key, is_wall, k, sizes);
+          const PairInfo one = describe(physics, entry.element.normal, key, is_wall, k, sizes);
           if (all)
             all->include(one);
           else
@@ -153,9 +131,11 @@ class PairTable
         info.needed = types.can_meet(i, j, is_wall);
         info.onset_speed = std::numeric_limits<double>::infinity();
         each_entry_in_use(i, j, sizes, [&](const Entry& entry, std::size_t) {
-          add_limits(info, entry.contact, smallest(sizes, i, is_wall ? 0 : j), lmp->update->dt);
-          if (info.needed) physics.check_sizes(i, j, is_wall, entry.contact, sizes);
-          if (info.needed) refuse_rated(lmp, setup, entry.contact.min_speed(1.0, 1.0) > 0);
+          add_limits(info, entry.element.normal, smallest(sizes, i, is_wall ? 0 : j), lmp->update->dt);
+          if (info.needed) physics.check_sizes(i, j, is_wall, entry.element.normal, sizes);
+          if constexpr (Element::deepens && requires { physics.check_flow_stress(entry.element.normal); })
+            if (info.needed) physics.check_flow_stress(entry.element.normal);
+          if (info.needed) refuse_rated(lmp, setup, entry.element.normal.min_speed(1.0, 1.0) > 0);
         });
         counts.info = info;
       }
@@ -201,15 +181,15 @@ class PairTable
     const bool rigid = setup.wall && !setup.options.deformable_wall;
     Entry* entries = first_entry(i, j);
     if constexpr (!HasLawsBySize<Physics>)
-      entries[0].contact = physics.resolve(i, j, rigid, setup.where);
+      entries[0].element.normal = physics.resolve(i, j, rigid, setup.where);
     else if (setup.wall)
-      entries[0].contact =
+      entries[0].element.normal =
           physics.resolve(i, j, rigid, setup.where, 1.0, std::numeric_limits<double>::infinity());
     else {
       const SizeChoice& choice = choices_[pair_of(i, j)];
       for (std::size_t k = 0; k < choice.count(); ++k) {
         const auto [radius_i, radius_j] = choice.radii_of(k, sizes.of_type(i), sizes.of_type(j));
-        entries[k].contact = physics.resolve(i, j, rigid, setup.where, radius_i, radius_j);
+        entries[k].element.normal = physics.resolve(i, j, rigid, setup.where, radius_i, radius_j);
       }
     }
   }
@@ -228,7 +208,7 @@ class PairTable
   bool any_contact(const auto& holds) const
   {
     return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-      return entry.largest_overlap >= 0.0 && holds(entry.contact);
+      return entry.largest_overlap >= 0.0 && holds(entry.element.normal);
     });
   }
 
@@ -299,25 +279,32 @@ class PairTable
   }
 
   /// Completes an entry with numbers that follow from the law and the moduli.
-  static void complete(Entry& entry, double stretch, const TangentialChoice& tangential, double shear_moduli,
+  static void complete(Entry& entry, double stretch, const TangentialChoice& tangential, double friction, double shear_moduli,
                        double damping_ratio)
   {
-    entry.largest_overlap = entry.contact.largest_overlap();
+    const Contact& contact = entry.element.normal;
+    entry.largest_overlap = contact.largest_overlap();
     if (stretch > 1.0) entry.largest_overlap = std::min(entry.largest_overlap, stretched_overlap_limit);
-    entry.yield_overlap = entry.contact.yield_overlap();
-    entry.damage_number_per_speed2 = entry.contact.damage_number_per_speed2();
-    // k_t,s(d) = k_t(d/s)/s^2; Mindlin's radius is of the stretched overlap: another 1/sqrt(s)
-    entry.tangential = shear_moduli * std::pow(stretch, tangential.computed ? -2.0 : -2.5);
-    entry.tangential_damping = 2.0 * tangential.damping * std::sqrt(entry.tangential);
+    entry.damage_number_per_speed2 = contact.damage_number_per_speed2();
+    entry.shear = ShearPair::of(shear_moduli, friction, tangential.damping, stretch, tangential.computed);
+    entry.element.yield_overlap = contact.yield_overlap();
     // sqrt(5) Z sqrt(k m) d^(1/4) makes e = exp(-pi Z/sqrt(1 - Z^2)) at every speed (Antypov & Elliott
     // 2011); k = 4/3 E* sqrt(R*), stretched 1/s^2.5
-    entry.damping = std::sqrt(5.0) * damping_ratio * std::sqrt(4.0 / 3.0 * entry.contact.pair_modulus()) *
-                    std::pow(stretch, -1.25);
+    entry.element.damping = std::sqrt(5.0) * damping_ratio * std::sqrt(4.0 / 3.0 * contact.pair_modulus()) *
+                            std::pow(stretch, -1.25);
+  }
+  static void complete_tangential(Entry& entry, const BodiesInShear& bodies)
+  {
+    if constexpr (std::constructible_from<Tangential, const Contact&, const ShearPair&, const BodiesInShear&>)
+      entry.element.tangential = Tangential(entry.element.normal, entry.shear, bodies);
+    else if constexpr (std::constructible_from<Tangential, const ShearPair&>)
+      entry.element.tangential = Tangential(entry.shear);
+    else
+      (void)entry, (void)bodies;
   }
 
   std::vector<Entry> entries_;  // laws_ for each pair of types; a pair with fewer leaves the last ones empty
   std::vector<SizeChoice> choices_;  // of each pair
-  std::vector<BodiesInShear> in_shear_;  // of each pair
   std::vector<LawFinder> finders_;   // of each pair
   std::size_t laws_ = 1;
   bool radiates_ = false;

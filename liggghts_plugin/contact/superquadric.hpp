@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "contact/pair.hpp"
+#include "contact/vector.hpp"
 #include "liggghts_plugin/deck/session.hpp"
 #include "liggghts_plugin/engine/shapes.hpp"
 #include "liggghts_plugin/particles/bodies.hpp"
@@ -81,6 +82,37 @@ inline void add_normal_torque(const cm::SurfacesIntersectData& sidata, const dou
 #else
   (void)sidata, (void)x, (void)force, (void)i_forces, (void)j_forces;
 #endif
+}
+
+/// Adds a shear force (N) and its torques about the centres. `lever`: m, from the centre of a sphere i.
+inline void add_shear(const cm::SurfacesIntersectData& sidata, const LAMMPS_NS::Atom& atom, const Vector& shear, double lever,
+                      cm::ForceData& i_forces, cm::ForceData& j_forces)
+{
+  const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
+  for (int c = 0; c < 3; ++c) {
+    i_forces.delta_F[c] += shear[c] * share;
+    if (!sidata.is_wall) j_forces.delta_F[c] += -shear[c];
+  }
+#ifdef SUPERQUADRIC_ACTIVE_FLAG
+  if (sidata.is_non_spherical) {
+    const auto torque = [&](int particle) {
+      double arm[3];
+      for (int c = 0; c < 3; ++c) arm[c] = sidata.contact_point[c] - atom.x[particle][c];
+      return cross(arm, shear);
+    };
+    for (int c = 0; c < 3; ++c) {
+      i_forces.delta_torque[c] += torque(sidata.i)[c] * share;
+      if (!sidata.is_wall) j_forces.delta_torque[c] -= torque(sidata.j)[c];
+    }
+    return;
+  }
+#endif
+  (void)atom;
+  const Vector torque = cross(sidata.en, shear);
+  for (int c = 0; c < 3; ++c) {
+    i_forces.delta_torque[c] += -lever * torque[c] * share;
+    if (!sidata.is_wall) j_forces.delta_torque[c] += -sidata.crj * torque[c];
+  }
 }
 
 /// Throws Error where a law of one size (`rated`) meets particles that have another radius at each point.

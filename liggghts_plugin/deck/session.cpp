@@ -6,7 +6,6 @@
 
 namespace granulaw::plugin {
 
-const Setup* Setup::current = nullptr;
 
 std::shared_ptr<Session> Session::of(LAMMPS_NS::LAMMPS* lmp)
 {

@@ -134,9 +134,8 @@ class Session
   std::set<std::string> warned_;
 };
 
-/// One command's setup, handed to the contact model: LIGGGHTS builds the model before it reads the words, and
-/// keeps it out of reach. The style (CommandStyle) owns the setup and makes it `current`
-/// while it calls the model's postSettings; it outlives the model's use of it.
+/// One command's setup. The style (CommandStyle) owns it, and gives it to the contact model, which LIGGGHTS builds before it
+/// reads the words.
 struct Setup
 {
   std::shared_ptr<Session> session;
@@ -148,8 +147,6 @@ struct Setup
   bool energy = false, contact_map = false;  ///< whether contacts keep what these need
   HistoryMeaning meaning;
   mutable const ContactInquiry* contacts = nullptr;  ///< the model, once it has read its words
-
-  static const Setup* current;
 
   /// The command's name in restart records: pairs_record, or the wall's id. A wall of the id "pair" is "fix pair": no id
   /// has a blank.

@@ -81,14 +81,6 @@ void note_meaning(const CommandModels& models, Setup& setup)
   setup.session->meanings[setup.command()] = setup.meaning;
 }
 
-/// The energy tally counts what happens in contact.
-void refuse_out_of_reach(const CommandModels& models, const Setup& setup)
-{
-  if (models.ids.has_bridges() && setup.energy)
-    fail(setup.where,
-         "'energy on' does not book the work of liquid bridges that pull across a gap: leave it out");
-}
-
 /// no_history is a dashpot capped at the Coulomb limit: without the dashpot there is no friction at all.
 void refuse_no_friction(const CommandModels& models, const Setup& setup, const Words& rest)
 {
@@ -176,17 +168,6 @@ void refuse_other_histories(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
   }
 }
 
-/// Calls LIGGGHTS's own settings() with `words`, our setup being current for the model's postSettings.
-void with_setup(const Setup& setup, Words words, const std::function<void(int, char**)>& call)
-{
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  Setup::current = &setup;
-  call(static_cast<int>(words.size()), pointers.data());
-  Setup::current = nullptr;
-}
-
 /// The fixes and computes of ours that a deck may name.
 void provide_observers(LAMMPS_NS::LAMMPS* lmp)
 {
@@ -235,11 +216,13 @@ void CommandStyle::read(const CommandModels& models, int nargs, char** args,
     DeckUnits::of(lmp_->update->unit_style, setup_.where);
     return provide_observers(lmp_);
   }
-  refuse_out_of_reach(models, setup_);
   refuse_shape(lmp_, setup_, models.ids.superquadric());
   refuse_no_friction(models, setup_, rest);
   warn_stretched_cohesion(lmp_, models, setup_);
-  with_setup(setup_, rest, call);
+  pointers.clear();
+  for (std::string& word : rest) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  call(static_cast<int>(rest.size()), pointers.data());
   refuse_other_histories(lmp_, setup_);
   provide_fixes(lmp_);
 }

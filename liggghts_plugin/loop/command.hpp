@@ -46,8 +46,7 @@ class CommandStyle : public CountedStyle
   /// `wall`: null for pairs.
   CommandStyle(LAMMPS_NS::LAMMPS* lmp, FixWallGran* wall);
 
-  /// Reads our own words of the command; `call(nargs, args)` gets the others, with our setup being current
-  /// for the model's postSettings. Ends the run with one sentence where they are wrong. Collective.
+  /// Reads our own words of the command; `call(nargs, args)` gets the others. Ends the run with one sentence where they are wrong. Collective.
   template <NormalPhysics Physics>
   void read(std::int64_t hash, int nargs, char** args, const std::function<void(int, char**)>& call)
   {

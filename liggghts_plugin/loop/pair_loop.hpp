@@ -99,6 +99,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
         }
     }
   }
+  ContactModel& model() { return model_; }
   /// From where the masses of rigid bodies come.
   void set_bodies(const Bodies* bodies) { bodies_ = bodies; }
 

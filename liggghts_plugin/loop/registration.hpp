@@ -32,15 +32,19 @@ bool takes_own_tangential(const ModelIds& ids);
 /// built, it stops with a sentence.
 void refuse_other_normals(const std::string& name, int id, int normal);
 
-/// Makes the styles of these models.
-template <class Contact>
-void add_styles(const ModelIds& ids)
+/// The style of a normal and a tangential law, with the models of LIGGGHTS's that `hash` names.
+template <class Interface, template <class> class Style, NormalPhysics Physics, class Tangential, class Parent>
+Interface* make_contact(LAMMPS* lmp, Parent* parent, int64_t hash)
 {
-  const int hash = static_cast<int>(ids.hash());
-  LIGGGHTS::PairStyles::Factory::instance().addStyle(
-      "gran", hash, &make_style<LIGGGHTS::PairStyles::IGranularPairStyle, PairStyle<Contact>, PairGran>);
-  LIGGGHTS::Walls::Factory::instance().addStyle(
-      "gran", hash, &make_style<LIGGGHTS::Walls::IGranularWall, WallStyle<Contact>, FixWallGran>);
+  const ModelIds ids = ModelIds::of(hash);
+  check_particles(lmp, ids);
+#ifdef SUPERQUADRIC_ACTIVE_FLAG
+  if (ids.superquadric())
+    return make_style<Interface, Style<ComposedContact<Physics, Tangential, Chosen, cm::SURFACE_SUPERQUADRIC>>>(lmp, parent, hash);
+#endif
+  if (ids.cohesion == cm::COHESION_OFF && ids.rolling == cm::ROLLING_OFF)
+    return make_style<Interface, Style<ComposedContact<Physics, Tangential, Off>>>(lmp, parent, hash);
+  return make_style<Interface, Style<ComposedContact<Physics, Tangential, Chosen>>>(lmp, parent, hash);
 }
 
 /// Makes `tangential NAME`, a TangentialLaw of ours, known for a normal model, with each cohesion and rolling model
@@ -54,10 +58,11 @@ void add_tangential(const char* name, int id)
   each_combination(Physics::id, [id](ModelIds ids) {
     if (!takes_own_tangential(ids)) return;
     ids.tangential = id;
-    if (ids.cohesion == cm::COHESION_OFF && ids.rolling == cm::ROLLING_OFF)
-      add_styles<OwnContact<Physics, Law, Off>>(ids);
-    else
-      add_styles<OwnContact<Physics, Law, Chosen>>(ids);
+    const int hash = static_cast<int>(ids.hash());
+    LIGGGHTS::PairStyles::Factory::instance().addStyle(
+        "gran", hash, &make_contact<LIGGGHTS::PairStyles::IGranularPairStyle, PairStyle, Physics, Law, PairGran>);
+    LIGGGHTS::Walls::Factory::instance().addStyle(
+        "gran", hash, &make_contact<LIGGGHTS::Walls::IGranularWall, WallStyle, Physics, Law, FixWallGran>);
   });
 }
 
@@ -77,16 +82,11 @@ class ModelRegistration
   template <class Interface, template <class> class Style, class Parent>
   static Interface* make(LAMMPS* lmp, Parent* parent, int64_t hash)
   {
-    const ModelIds ids = ModelIds::of(hash);
-    check_particles(lmp, ids);
-#ifdef SUPERQUADRIC_ACTIVE_FLAG
-    if (ids.superquadric())
-      return make_style<Interface, Style<AnyContact<Physics, cm::SURFACE_SUPERQUADRIC>>>(lmp, parent, hash);
-#endif
-    if (ids.tangential == cm::TANGENTIAL_HISTORY && ids.cohesion == cm::COHESION_OFF &&
-        ids.rolling == cm::ROLLING_OFF)
-      return make_style<Interface, Style<UsualContact<Physics>>>(lmp, parent, hash);
-    return make_style<Interface, Style<AnyContact<Physics>>>(lmp, parent, hash);
+    switch (ModelIds::of(hash).tangential) {
+      case cm::TANGENTIAL_HISTORY: return make_contact<Interface, Style, Physics, Spring>(lmp, parent, hash);
+      case cm::TANGENTIAL_NO_HISTORY: return make_contact<Interface, Style, Physics, ViscousFriction>(lmp, parent, hash);
+      default: return make_contact<Interface, Style, Physics, Frictionless>(lmp, parent, hash);
+    }
   }
 };
 

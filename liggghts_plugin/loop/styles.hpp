@@ -20,6 +20,7 @@ class PairStyle final : public PairLoop<Contact>, public CommandStyle
   PairStyle(LAMMPS* lmp, PairGran* parent, int64_t hash)
       : Base(lmp, parent, hash), CommandStyle(lmp, nullptr), lmp_(lmp), parent_(parent)
   {
+    this->model().take(setup());
   }
 
   void each_open(const std::function<void(const OpenContact&)>& visit) const override
@@ -57,6 +58,7 @@ class WallStyle final : public WallLoop<Contact>, public CommandStyle
   WallStyle(LAMMPS* lmp, FixWallGran* parent, int64_t hash)
       : Base(lmp, parent, hash), CommandStyle(lmp, parent), lmp_(lmp), hash_(hash)
   {
+    this->model().take(setup());
   }
 
   void each_open(const std::function<void(const OpenContact&)>& visit) const override

@@ -118,6 +118,8 @@ class WallLoop : public LIGGGHTS::Walls::IGranularWall
   }
 
  protected:
+  ContactModel& model() { return model_; }
+
   /// The overlap whose circle heat passes through, in LIGGGHTS's formula: area pi (R^2 - (R - overlap)^2). `overlap`: the geometric one.
   virtual double heat_overlap(const SurfacesIntersectData& contact, double overlap) const = 0;
 

@@ -129,16 +129,16 @@ int advance(const Element& element, std::size_t n, const granulaw_motion* motion
   for (std::size_t k = 0; k < n; ++k, kept += Element::values) {
     const granulaw_motion& m = motion[k];
     if (!has_numbers(m)) return GRANULAW_NO_NUMBER;
-    const ContactForce force = element.advance({{m.r_eff, m.overlap, m.approach, !m.asked_again},
-                                                m.m_eff,
-                                                m.dt,
-                                                {m.normal[0], m.normal[1], m.normal[2]},
-                                                {m.slide[0], m.slide[1], m.slide[2]},
-                                                {m.turn[0], m.turn[1], m.turn[2]}},
-                                               kept, books);
+    const ContactMotion moves{{m.r_eff, m.overlap, m.approach, !m.asked_again},
+                              m.m_eff,
+                              m.dt,
+                              {m.normal[0], m.normal[1], m.normal[2]},
+                              {m.slide[0], m.slide[1], m.slide[2]},
+                              {m.turn[0], m.turn[1], m.turn[2]}};
+    const ContactForce force = element.advance(moves, kept, books);
     answer[k] = {force.normal,
                  force.stiffness,
-                 force.contact_radius,
+                 element.contact_radius(moves, kept),
                  {force.shear[0], force.shear[1], force.shear[2]},
                  {force.couple[0], force.couple[1], force.couple[2]}};
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "contact/tangential.hpp"
 
@@ -17,63 +18,150 @@ inline double work_of_waves(double waves, double approach, double force, double 
 /// Force of a contact on body i; j gets the opposite.
 struct ContactForce
 {
-  double normal = 0;          ///< N, along the normal
-  double stiffness = 0;       ///< N/m, of the normal law on its branch
-  double contact_radius = 0;  ///< m, of the real, unstretched contact
-  Vector shear{};             ///< N
-  Vector couple{};            ///< N m, beside the torque of `shear`
+  double normal = 0;     ///< N, along the normal: all of it
+  double law = 0;        ///< N, the normal law's part, >= 0
+  double stiffness = 0;  ///< N/m, of the normal law on its branch
+  Vector shear{};        ///< N
+  Vector couple{};       ///< N m, beside the torque of `shear`
 };
 
-/// A contact of two bodies: a normal law and a tangential law, with one state. No allocation, no exception.
-template <NormalLaw Normal, TangentialLaw<Normal> Tangential = Frictionless>
+/// Nothing beside the two laws. A piece that stands there (adhesion, a liquid bridge) has the same members.
+struct NothingBeside
+{
+  static constexpr std::array<Kept, 0> keeps{};
+  static constexpr bool acts_at_distance = false;  ///< true: it acts before the surfaces have touched
+  /// m, gap between the surfaces up to which it acts.
+  static double reach(double) { return 0.0; }
+  /// True if it holds the two bodies together, so that the state stays although the surfaces have parted.
+  static bool holds(const double*) { return false; }
+  /// N, negative: it pulls. Added to the normal law's force: only the sum may be negative.
+  template <class Normal>
+  static double advance(const Normal&, const ContactMotion&, double, double*, double*, Ledger&)
+  {
+    return 0.0;
+  }
+};
+
+/// The particle code's part in a step of the element. This one has none.
+struct NoCaller
+{
+  /// True: the stiffness is asked for, also where no waves act.
+  static constexpr bool with_stiffness() { return true; }
+  /// X of a contact that begins.
+  template <LatchesImpact Normal>
+  static double impact_overlap(const Normal& law, const ContactMotion& m)
+  {
+    return law.impact_overlap(m.r_eff, m.m_eff, m.approach);
+  }
+  /// Before the largest overlap grows from the first, under X. False: no motion paid for it, and nothing is booked.
+  static constexpr bool grows(double, double) { return true; }
+  /// N, what acts along the normal, and what friction grows with: the second and third. It may lower the one, and change the
+  /// other by forces of its own.
+  static void press(const NormalForces&, double&, double&) {}
+};
+
+/// A contact of two bodies, with one state: a normal law, a dashpot for contacts that are elastic, a tangential law, and
+/// what stands beside them. No allocation, no exception.
+template <NormalLaw Normal, TangentialLaw<Normal> Tangential = Frictionless, class Beside = NothingBeside>
 struct ContactElement
 {
   using State = NormalState<Normal>;
   /// All zero in a contact that begins.
-  static constexpr auto keeps = State::keeps + Tangential::keeps;
-  static constexpr std::size_t values = values_of(keeps);
+  static constexpr auto keeps = State::keeps + Tangential::keeps + Beside::keeps;
+  static constexpr std::size_t values = values_of(keeps), beside_at = values - values_of(Beside::keeps);
+  /// True if the tangential law takes the depth along: the largest overlap that the normal law keeps is then not the motion's.
+  static constexpr bool deepens = requires { requires Tangential::deepens; };
 
   Normal normal;
   Tangential tangential{};
+  double damping = 0;        ///< of contacts that are elastic: dashpot over sqrt(sqrt(R* d) m*)
+  double yield_overlap = 0;  ///< over R*: the normal law's; asked for with damping alone
+  [[no_unique_address]] Beside beside{};
 
-  /// `kept`: `values` numbers of this contact; an overlap of 0 or less ends it. Adds to `books`.
+  /// `kept`: `values` numbers of this contact. An overlap of 0 or less ends it, unless the piece beside holds it. Adds to `books`.
   ContactForce advance(const ContactMotion& m, double* kept, Ledger& books) const
   {
-    if (!(m.overlap > 0)) {
-      if (m.advances) std::fill_n(kept, values, 0.0);
-      return {};
-    }
-    const double before = State::largest(kept);
-    const NormalForces now = advance_normal(normal, m, true, kept, Books{*this, m, books});
-    ContactForce answer{
-        .stiffness = now.stiffness,
-        .contact_radius = normal.contact_radius(m.r_eff, m.overlap, before, now.impact_overlap)};
-    // below the residual overlap of a dent nothing touches, and nothing is braked
-    answer.normal = now.law <= 0.0 ? 0.0 : std::max(now.law + now.waves, 0.0);
-    if (m.advances && answer.normal > 0)
-      books[Mechanism::waves] += work_of_waves(now.waves, m.approach, answer.normal, m.m_eff, m.dt);
-    const Grip grip = tangential.advance(normal, m, answer.normal, kept, kept + State::values, books);
-    answer.shear = grip.force, answer.couple = grip.couple;
-    return answer;
+    return m.overlap > 0 ? touch(m, kept, books, NoCaller{}) : part(m, kept, books);
+  }
+
+  /// The same of surfaces that touch.
+  template <class Caller>
+  [[gnu::always_inline]] ContactForce touch(const ContactMotion& m, double* kept, Ledger& books, Caller&& caller) const
+  {
+    const double before = State::largest(kept), root = std::sqrt(m.r_eff * m.overlap);
+    const NormalForces now = press(m, kept, books, caller);
+    const double braking = dashpot(m, before, std::sqrt(root * m.m_eff)) * m.approach;
+    // below the residual overlap of a dent nothing touches, and nothing is braked; of an undamped contact the law's force
+    // itself, to the bit (std::max gives its first argument where that is no number, for the particle code to find)
+    double push = now.law <= 0.0 ? 0.0 : std::max((now.law + now.waves) + braking, 0.0), pull = 0.0;
+    if constexpr (has_beside) pull = beside.advance(normal, m, push, kept, kept + beside_at, books);
+    double pressing = has_beside ? push + pull : push;
+    caller.press(now, push, pressing);
+    if (Radiates<Normal> && m.advances && caller.with_stiffness())
+      books[Mechanism::waves] += work_of_waves(now.waves, m.approach, push, m.m_eff, m.dt);
+    const double depth = State::largest(kept);
+    const Grip grip = tangential.advance(normal, m, push, pressing, kept, kept + State::values, books);
+    if constexpr (deepens)  // a contact that goes deeper is not elastic, though its overlap is less than its depth
+      if (State::largest(kept) > depth && m.approach > 0.0) push = std::max(push - braking, 0.0);
+    return {has_beside ? push + pull : push, now.law, now.stiffness, grip.force, grip.couple};
+  }
+
+  /// m, of the circle of contact, of the real, unstretched contact.
+  double contact_radius(const NormalMotion& m, const double* kept) const
+  {
+    if (!(m.overlap > 0)) return 0.0;
+    return normal.contact_radius(m.r_eff, m.overlap, State::largest(kept), State::impact_overlap(kept));
   }
 
  private:
-  struct Books
-  {
-    const ContactElement& element;
-    const ContactMotion& m;
-    Ledger& books;
+  static constexpr bool has_beside = !std::same_as<Beside, NothingBeside>;
 
-    double impact_overlap() const
-    {
-      if constexpr (LatchesImpact<Normal>) return element.normal.impact_overlap(m.r_eff, m.m_eff, m.approach);
-      return 0.0;
+  /// Surfaces that do not touch.
+  ContactForce part(const ContactMotion& m, double* kept, Ledger& books) const
+  {
+    if (beside.holds(kept + beside_at)) return {.normal = beside.advance(normal, m, 0.0, kept, kept + beside_at, books)};
+    if (m.advances) std::fill_n(kept, values, 0.0);
+    return {};
+  }
+
+  /// The step of the normal law.
+  template <class Caller>
+  [[gnu::always_inline]] NormalForces press(const ContactMotion& m, double* kept, Ledger& books, Caller&& caller) const
+  {
+    double* const own = kept + State::own;
+    const double delta_max = State::largest(kept);
+    double impact_overlap = State::impact_overlap(kept);
+    const auto with_slope = [&] {
+      const auto [force, k] = normal.response(m.r_eff, m.overlap, delta_max, impact_overlap, own);
+      NormalForces now{.law = force, .stiffness = k};
+      if constexpr (Radiates<Normal>) now.waves = std::max(normal.radiation * m.approach * (k * k), -force);
+      return now;
+    };
+    // one branch for force and books: in a bed that is pressed no processor can foresee which contacts grow
+    if (!(m.overlap > delta_max))
+      return caller.with_stiffness() ? with_slope() : NormalForces{normal.force(m.r_eff, m.overlap, delta_max, impact_overlap, own)};
+    if constexpr (LatchesImpact<Normal>)
+      if (delta_max == 0.0) impact_overlap = caller.impact_overlap(normal, m);
+    const NormalForces now =
+        caller.with_stiffness() ? with_slope() : NormalForces{loading_of(normal, m.r_eff, m.overlap, delta_max, impact_overlap, own)};
+    if (m.advances) {
+      if constexpr (LatchesImpact<Normal>) kept[1] = impact_overlap;
+      if (caller.grows(delta_max, impact_overlap))
+        books[Mechanism::plastic] += dissipation_of(normal, m.r_eff, delta_max, m.overlap, impact_overlap, own);
+      kept[0] = m.overlap;
     }
-    void deepen(double from, double latched, double* own) const
-    {
-      books[Mechanism::plastic] += dissipation_of(element.normal, m.r_eff, from, m.overlap, latched, own);
-    }
-  };
+    return now;
+  }
+
+  /// kg/s; `impedance`: what both dashpots of a contact are proportional to. Elastic is a contact that never yielded, both ways,
+  /// and a yielded one on its way back to its largest overlap, but not when it parts, so that the rebound of a plastic impact is
+  /// the law's own. Without a branch: in a bed contacts approach and part at random.
+  double dashpot(const ContactMotion& m, double delta_max, double impedance) const
+  {
+    const bool returns = (m.overlap < delta_max) & (m.approach > 0.0);
+    const bool elastic = std::max(m.overlap, delta_max) <= yield_overlap * m.r_eff;
+    return damping * static_cast<double>(returns | elastic) * impedance;
+  }
 };
 
 }  // namespace granulaw

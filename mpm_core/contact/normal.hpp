@@ -9,7 +9,7 @@
 
 #include "contact/kept.hpp"
 
-// The normal law of a contact, and the step that all laws share.
+// The normal law of a contact.
 namespace granulaw {
 
 /// Force of a contact along its normal, and dF/d(overlap) of the branch that it follows.
@@ -152,52 +152,9 @@ struct NormalMotion
 /// Answer of a normal law to a step.
 struct NormalForces
 {
-  double law = 0, waves = 0;               ///< N; waves only brake, and never make a contact pull
-  double stiffness = 0;                    ///< N/m, of the law, where it was asked for
-  double largest = 0, impact_overlap = 0;  ///< of the contact behind the step
+  double law = 0, waves = 0;  ///< N; waves only brake, and never make a contact pull
+  double stiffness = 0;       ///< N/m, of the law, where it was asked for
 };
-
-/// One step of a contact. `with_stiffness`: also asked for where waves are to act. `books` has
-///     double impact_overlap()                              X of a contact that begins
-///     void deepen(double from, double impact_overlap, double* own)   before the largest overlap grows from
-///     `from`
-template <NormalLaw Law, class Books>
-[[gnu::always_inline]] inline NormalForces advance_normal(const Law& law, const NormalMotion& m,
-                                                          bool with_stiffness, double* kept, Books&& books)
-{
-  using State = NormalState<Law>;
-  double* const own = kept + State::own;
-  const double delta_max = State::largest(kept);
-  NormalForces now;
-  now.largest = delta_max;
-  const auto with_slope = [&] {
-    const auto [force, k] = law.response(m.r_eff, m.overlap, delta_max, now.impact_overlap, own);
-    now.law = force;
-    now.stiffness = k;
-    if constexpr (Radiates<Law>) now.waves = std::max(law.radiation * m.approach * (k * k), -force);
-  };
-  // one branch for force and books: in a bed that is pressed no processor can foresee which contacts grow
-  if (m.overlap > delta_max) {
-    if constexpr (LatchesImpact<Law>)
-      now.impact_overlap = delta_max == 0.0 ? books.impact_overlap() : State::impact_overlap(kept);
-    if (with_stiffness)
-      with_slope();
-    else
-      now.law = loading_of(law, m.r_eff, m.overlap, delta_max, now.impact_overlap, own);
-    if (m.advances) {
-      if constexpr (LatchesImpact<Law>) kept[1] = now.impact_overlap;
-      books.deepen(delta_max, now.impact_overlap, own);
-      kept[0] = now.largest = m.overlap;
-    }
-  } else {
-    now.impact_overlap = State::impact_overlap(kept);
-    if (with_stiffness)
-      with_slope();
-    else
-      now.law = law.force(m.r_eff, m.overlap, delta_max, now.impact_overlap, own);
-  }
-  return now;
-}
 
 /// For a law that is a closed formula, to derive from: it has neither a limit of speed nor of overlap, and
 /// its contacts keep their largest overlap alone.

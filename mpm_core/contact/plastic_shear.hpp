@@ -45,6 +45,7 @@ struct BodiesInShear
 class PlasticShear
 {
  public:
+  static constexpr bool deepens = true;
   static constexpr std::array keeps{
       Kept{.name = "shear", .values = 3, .turns_with_exchange = true},  // N, on j, of the real contact; elastic: m
       Kept{.name = "shear_stiffness"},                                  // N/m, of the last step
@@ -74,14 +75,13 @@ class PlasticShear
     return !turns() || deepest <= law.yield_overlap() * r_eff;
   }
   /// N, shear on body i of a contact that holds.
-  Vector hold(const ContactMotion& m, double force, double deepest, double* kept, Ledger& books) const
+  Vector hold(const ContactMotion& m, double pressing, double deepest, double* kept, Ledger& books) const
   {
-    if (!turns()) return elastic_.advance(m, force, kept, books);
     const FacetMotion step = motion(m);
     const FacetMemory held = read(kept, m.normal);
     const double k = material_.shear_stiffness * std::sqrt(m.r_eff * step.overlap);  // Hertz's radius
     Vector pulls = held.stretched(step.slide, k), braking{};
-    const double pull = norm(pulls), most = material_.friction * (force * stretch_);
+    const double pull = norm(pulls), most = material_.friction * (std::abs(pressing) * stretch_);
     if (pull > most)
       pulls = times(pulls, most / pull);
     else
@@ -94,10 +94,11 @@ class PlasticShear
   }
 
   template <class Normal>
-  Grip advance(const Normal& law, const ContactMotion& m, double& force, double* normal_kept, double* kept,
+  Grip advance(const Normal& law, const ContactMotion& m, double& force, double pressing, double* normal_kept, double* kept,
                Ledger& books) const
   {
-    if (holds(law, m.r_eff, normal_kept[0])) return hold(m, force, normal_kept[0], kept, books);
+    if (!turns()) return elastic_.advance(law, m, force, pressing, normal_kept, kept, books);
+    if (holds(law, m.r_eff, normal_kept[0])) return hold(m, pressing, normal_kept[0], kept, books);
     const FacetMotion step = motion(m);
     const FacetMemory held = read(kept, m.normal);
     const double latched = NormalState<Normal>::impact_overlap(normal_kept);

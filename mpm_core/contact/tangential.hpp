@@ -34,14 +34,15 @@ struct Grip
 
 // clang-format off
 
-/// `normal_kept`: the normal law's values (NormalState), `kept`: this law's own. The law may lower `force`, N, what
-/// acts along the normal, and raise the largest overlap, and books what either takes.
+/// `normal_kept`: the normal law's values (NormalState), `kept`: this law's own. `push`: N, >= 0, what acts along the normal
+/// without what stands beside the laws; `pressing`: N, with it, whose size friction grows with. A law with `deepens = true` may
+/// lower `push` and raise the largest overlap, and books what either takes.
 template <class Law, class Normal>
 concept TangentialLaw = std::copyable<Law> &&
-    requires(const Law law, const Normal normal, const ContactMotion& motion, double& force, double* normal_kept, double* kept,
-             Ledger& books) {
+    requires(const Law law, const Normal normal, const ContactMotion& motion, double& push, double pressing, double* normal_kept,
+             double* kept, Ledger& books) {
   { std::span<const Kept>(Law::keeps) };
-  { law.advance(normal, motion, force, normal_kept, kept, books) } -> std::convertible_to<Grip>;
+  { law.advance(normal, motion, push, pressing, normal_kept, kept, books) } -> std::convertible_to<Grip>;
 };
 
 // clang-format on
@@ -51,7 +52,7 @@ struct Frictionless
 {
   static constexpr std::array<Kept, 0> keeps{};
   template <class Normal>
-  Vector advance(const Normal&, const ContactMotion&, double&, double*, double*, Ledger&) const
+  Vector advance(const Normal&, const ContactMotion&, double, double, double*, double*, Ledger&) const
   {
     return {};
   }
@@ -68,14 +69,32 @@ struct ShearPair
 {
   double stiffness = 0;  ///< Pa, k_t over the contact radius sqrt(R* d): 8 G*
   double friction = 0;   ///< coefficient
-  double damping = 0;    ///< dashpot over sqrt(sqrt(R* d) m*)
+  double damping = 0;    ///< dashpot over sqrt(sqrt(R* d) m*); of_law: over sqrt(k_t m*)
+  bool of_law = false;   ///< k_t is over the law's own contact radius
+
+  struct OfContact
+  {
+    double stiffness, dashpot;  ///< N/m, kg/s
+  };
+  template <class Normal>
+  OfContact contact(const Normal& law, const ContactMotion& m, const double* normal_kept) const
+  {
+    using State = NormalState<Normal>;
+    if (of_law) [[unlikely]] {
+      const double k =
+          stiffness * law.contact_radius(m.r_eff, m.overlap, State::largest(normal_kept), State::impact_overlap(normal_kept));
+      return {k, damping * std::sqrt(k * m.m_eff)};
+    }
+    const double root = std::sqrt(m.r_eff * m.overlap);
+    return {stiffness * root, damping * std::sqrt(root * m.m_eff)};
+  }
 
   /// `damping_ratio`: Z, part of critical. Stretched by S, k_t,s(d) = k_t(d/S)/S^2, and Mindlin's radius is
   /// of the stretched overlap: another 1/sqrt(S).
-  static ShearPair of(double eight_shear_moduli, double friction, double damping_ratio, double stretch = 1)
+  static ShearPair of(double eight_shear_moduli, double friction, double damping_ratio, double stretch = 1, bool of_law = false)
   {
-    const double stiffness = eight_shear_moduli * std::pow(stretch, -2.5);
-    return {stiffness, friction, 2.0 * damping_ratio * std::sqrt(stiffness)};
+    const double stiffness = eight_shear_moduli * std::pow(stretch, of_law ? -2.0 : -2.5);
+    return {stiffness, friction, of_law ? 2.0 * damping_ratio : 2.0 * damping_ratio * std::sqrt(stiffness), of_law};
   }
 };
 
@@ -91,19 +110,14 @@ struct Spring
   explicit Spring(const ShearPair& numbers) : pair(numbers) {}
 
   template <class Normal>
-  Vector advance(const Normal&, const ContactMotion& m, double& force, double*, double* shear,
+  Vector advance(const Normal& law, const ContactMotion& m, double, double pressing, double* normal_kept, double* shear,
                  Ledger& books) const
   {
-    return advance(m, force, shear, books);
-  }
-  Vector advance(const ContactMotion& m, double force, double* shear, Ledger& books) const
-  {
-    const double root = std::sqrt(m.r_eff * m.overlap), k = pair.stiffness * root;
-    return advance(m, force, k, pair.damping * std::sqrt(root * m.m_eff), shear, books);
+    const auto [k, dashpot] = pair.contact(law, m, normal_kept);
+    return advance(m, pressing, k, dashpot, shear, books);
   }
   /// With k_t (N/m) and the dashpot (kg/s) given.
-  Vector advance(const ContactMotion& m, double normal_force, double k, double dashpot, double* shear,
-                 Ledger& books) const
+  Vector advance(const ContactMotion& m, double pressing, double k, double dashpot, double* shear, Ledger& books) const
   {
     Vector u{shear[0], shear[1], shear[2]};
     if (m.advances) {
@@ -112,7 +126,7 @@ struct Spring
       for (int c = 0; c < 3; ++c) u[c] -= out * m.normal[c];
     }
     const double length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-    const double held = k * length, most = pair.friction * std::abs(normal_force);
+    const double held = k * length, most = pair.friction * std::abs(pressing);
     Vector force{-(k * u[0]), -(k * u[1]), -(k * u[2])};
     double taken = 0.0;
     if (held > most) {
@@ -130,6 +144,26 @@ struct Spring
       books[Mechanism::friction] += taken;
     }
     return force;
+  }
+};
+
+/// A dashpot with Coulomb's limit, as LIGGGHTS's `tangential no_history` has it, to the bit.
+struct ViscousFriction
+{
+  static constexpr std::array<Kept, 0> keeps{};
+
+  ShearPair pair;
+
+  ViscousFriction() = default;
+  explicit ViscousFriction(const ShearPair& numbers) : pair(numbers) {}
+
+  template <class Normal>
+  Vector advance(const Normal& law, const ContactMotion& m, double, double pressing, double* normal_kept, double*, Ledger& books) const
+  {
+    const double dashpot = pair.contact(law, m, normal_kept).dashpot, speed = norm(m.slide), most = pair.friction * std::abs(pressing);
+    const double gamma = most < dashpot * speed ? most / speed : dashpot;
+    if (m.advances) books[Mechanism::friction] += gamma * m.dt * speed * speed;
+    return {-gamma * m.slide[0], -gamma * m.slide[1], -gamma * m.slide[2]};
   }
 };
 
