@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "base/error.hpp"
+#include "base/number_in.hpp"
 #include "base/scales.hpp"
 #include "law/law.hpp"
 #include "liggghts_plugin/deck/session.hpp"
@@ -25,7 +25,7 @@ VectorProperty* create_yield_stress(PropertyRegistry& registry, const char* call
 double yield_pressure_of(const Options& options)
 {
   const auto& words = options.own_words("yieldPressure");
-  return words.empty() ? customary_yield_pressure : std::strtod(words[0].c_str(), nullptr);
+  return words.empty() ? customary_yield_pressure : number_in(words[0]).value();
 }
 
 void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, const Setup& setup,

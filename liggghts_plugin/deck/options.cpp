@@ -4,10 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/number_in.hpp"
 
 namespace granulaw::plugin {
 
@@ -83,16 +83,6 @@ class KnownKeywords
   std::vector<const Keyword*> keywords_;
 };
 
-/// Empty: the text is no finite number.
-std::optional<double> number(const std::string& text)
-{
-  double value = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || stop != end || !std::isfinite(value)) return {};
-  return value;
-}
-
 /// Throws Error unless `value` may follow the keyword.
 void check_value(const Keyword& keyword, const std::string& value, const std::string& where)
 {
@@ -105,8 +95,8 @@ void check_value(const Keyword& keyword, const std::string& value, const std::st
     fail(where, fmt::format("'{}' has an unknown value", keyword.name), fmt::format("'{}'", value),
          fmt::format("{}{}", keyword.takes_number() ? fmt::format("a number from {}, ", range) : "",
                      fmt::join(words, ", ")));
-  const std::optional<double> found = number(value);
-  if (!found) fail(where, fmt::format("'{}' needs a number", keyword.name), fmt::format("'{}'", value));
+  const std::optional<double> found = number_in(value);
+  if (!found || !std::isfinite(*found)) fail(where, fmt::format("'{}' needs a number", keyword.name), fmt::format("'{}'", value));
   if (!(*found >= keyword.least && *found <= keyword.most))
     fail(where, fmt::format("'{}' is out of range", keyword.name), value, range);
 }
@@ -141,7 +131,7 @@ ElasticDamping elastic_damping(const std::string& value)
 {
   if (value == "off") return {0.0};
   if (value == "restitution") return {0.0, true};
-  return {*number(value)};
+  return {*number_in(value)};
 }
 
 /// Options of the keywords of all models.
@@ -158,7 +148,7 @@ Options shared_options(const Said& said)
   };
   const auto quantity = [&](const char* key) -> std::optional<double> {
     if (!value(key)) return {};
-    return number(*value(key));
+    return number_in(*value(key));
   };
   Options options;
   options.deformable_wall = is("wall", "deformable");

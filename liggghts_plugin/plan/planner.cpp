@@ -298,7 +298,7 @@ void Planner::record_without_run()
     auto* t = dynamic_cast<lmp::FixTemplateSphere*>(&fix);
     if (!t) return;
     for (int type = t->mintype(); type <= t->maxtype(); ++type)
-      record_.sources.push_back({where(fix), type, t->min_rad(), t->max_rad(), density_of(*t), {}, 0, 0, {}});
+      record_.sources.push_back({where(fix), type, t->min_rad(), t->max_rad(), density_of(*t), {}, 0, 0});
   });
 }
 
@@ -502,7 +502,6 @@ void Planner::find_atoms()
         s.density = std::max(s.density, now.density);
         if (now.v != old.v) s.speed = std::max(s.speed, norm(now.v));
         if (moved) s.centres.include(now.x);
-        s.together.clear();
       }
       if (found) continue;
     }
@@ -513,12 +512,6 @@ void Planner::find_atoms()
       record_.sources.back().type = now.type;
     }
     Source& s = record_.sources[at->second];
-    const bool alike = is_new || (now.radius == s.radius_max && now.density == s.density && norm(now.v) == 0);
-    const bool all_together = static_cast<double>(s.together.size()) == s.count;
-    if (all_together && alike && norm(now.v) == 0)
-      s.together.push_back(now.x);
-    else
-      s.together.clear();
     include_radius(s, now.radius);
     s.density = std::max(s.density, now.density);
     s.centres.include(now.x);
@@ -621,7 +614,6 @@ void Planner::end_run(int steps)
         if (s.type == now.type) {
           include_radius(s, now.radius);
           s.density = std::max(s.density, now.density);
-          s.together.clear();
         }
     old = atom(i);
   }

@@ -32,8 +32,6 @@ struct Source
   Box centres;         ///< where they may start; empty: not known
   double speed = 0;    ///< m/s, largest speed at the start
   double count = 0;    ///< how many of them the runs bring in; 0: not known
-  /// m, every centre, where all start at once, at rest, and are of one radius and density; else empty.
-  std::vector<Box::Point> together;
 };
 
 /// A wall that particles can hit.

@@ -33,7 +33,7 @@ inline void from_json(const nlohmann::json& j, Box& box)
 namespace deck {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TypeMaterial, youngs_modulus, poisson_ratio, yield_stress)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Source, where, type, radius_min, radius_max, density, centres, speed, count, together)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Source, where, type, radius_min, radius_max, density, centres, speed, count)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Wall, where, id, type, box, speed, drag_speed, deformable, model, push_speed, level_push_speed, lift)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Run, where, steps, time_step, particles, integrates)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DeckCommand, file, line, words)

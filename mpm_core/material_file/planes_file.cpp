@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/number_in.hpp"
 
 namespace granulaw {
 
@@ -15,12 +15,9 @@ namespace {
 
 double number(const std::string& word, const std::string& where, const char* what)
 {
-  double value = 0;
-  const char* end = word.data() + word.size();
-  const auto [at, error] = std::from_chars(word.data() + (word[0] == '+' ? 1 : 0), end, value);
-  if (error != std::errc() || at != end || !std::isfinite(value))
-    fail(where, fmt::format("the {} is no number", what), word);
-  return value;
+  const std::optional<double> value = number_in(word);
+  if (!value || !std::isfinite(*value)) fail(where, fmt::format("the {} is no number", what), word);
+  return *value;
 }
 
 PressPlane plane_of(const std::vector<std::string>& words, const std::string& where)

@@ -106,12 +106,6 @@ class TestScenes(Planned):
         assert one["centres"]["high"][2] == approx(0.4, abs=0.5e-12)  # 0.3, and then 0.1 more
         assert one["centres"]["low"] == [0.0, 0.0, 0.3]
 
-    def test_clouds_are_listed_while_at_rest_and_alike(self):
-        two = ONE + "create_atoms 1 single 0 0.01 0.2 units box\nset type 1 diameter 0.004 density 1000\n"
-        assert sorted(self.scene(BOX + two + "run 1\n")["sources"][0]["together"]) == [[0.0, 0.0, 0.3], [0.0, 0.01, 0.2]]
-        for change in ("velocity all set 0 0 -0.1\n", "set atom 2 diameter 0.006\n", "set atom 2 density 2000\n"):
-            assert self.scene(BOX + two + change + "run 1\n")["sources"][0]["together"] == [], change
-
     def test_insertions(self):
         deck = BOX + FLOOR + SPHERES
         source, = self.scene(deck + insertion("particles_in_region 100") + "run 1000\n")["sources"]

@@ -1,4 +1,4 @@
-#include "atlas_path.hpp"
+#include "own_files.hpp"
 #include "deck/process.hpp"
 
 #include <cstdlib>

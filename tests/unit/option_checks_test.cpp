@@ -9,7 +9,9 @@ std::string said(const Check& check, const std::string& word) { return check.com
 TEST(OptionChecks, ReadWholeWordsAsNumbers)
 {
   EXPECT_EQ(number_in("1e-3"), 1e-3);
-  for (const char* word : {"", "1x", "x", "20 %"}) EXPECT_TRUE(std::isnan(number_in(word))) << word;
+  EXPECT_EQ(number_in("+2"), 2);
+  EXPECT_EQ(number_in("inf"), std::numeric_limits<double>::infinity());
+  for (const char* word : {"", "+", "+-1", "1x", " 1", "x", "20 %"}) EXPECT_FALSE(number_in(word)) << word;
 }
 
 TEST(OptionChecks, AcceptTheirRangeOnly)

@@ -1,4 +1,4 @@
-#include "run_and_report.hpp"
+#include "run_report.hpp"
 
 #include <regex>
 

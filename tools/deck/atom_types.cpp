@@ -10,8 +10,7 @@ namespace granulaw::deck {
 
 namespace {
 
-constexpr const char *radius_option = "--radius R [R_MAX]", *density_option = "--density RHO",
-                     *material_option = "--materials-file FILE --materials NAME...";
+constexpr const char *radius_option = "--radius R [R_MAX]", *density_option = "--density RHO", *material_option = "--materials-file FILE --materials NAME...";
 
 /// Its material by the name that the options know, else by the deck's own properties.
 void set_material(AtomType& t, const Scene& scene, const PlanOptions& options)
@@ -41,12 +40,10 @@ bool has_moduli(const AtomType& t, std::vector<Question>& questions)
 }
 
 /// The deck's sources; of a deck without any, one of type 1 that the options describe.
-std::vector<Source> sources_of(const Scene& scene, const PlanOptions& options,
-                               std::vector<Question>& questions)
+std::vector<Source> sources_of(const Scene& scene, const PlanOptions& options, std::vector<Question>& questions)
 {
   if (!scene.sources.empty()) return scene.sources;
-  if (!options.radius_max && scene.unknown_particles.empty())
-    ask(questions, scene.deck + ": no particles were understood", radius_option);
+  if (!options.radius_max && scene.unknown_particles.empty()) ask(questions, scene.deck + ": no particles were understood", radius_option);
   Source unknown;
   unknown.where = scene.deck;
   return {unknown};
@@ -60,8 +57,7 @@ void complete(Source& s, const PlanOptions& options)
     s.radius_max = options.radius_max.value_or(0);
   }
   if (s.density <= 0) s.density = options.density.value_or(0);
-  if (const auto m = options.materials.find(s.type); s.density <= 0 && m != options.materials.end())
-    s.density = m->second.density;
+  if (const auto m = options.materials.find(s.type); s.density <= 0 && m != options.materials.end()) s.density = m->second.density;
 }
 
 /// True if size and density are known; adds the questions if not.
@@ -86,8 +82,7 @@ void add(std::map<int, AtomType>& types, const Source& s)
 }
 
 /// The radii that are given stand for particles that the deck hides.
-void include_hidden(std::map<int, AtomType>& types, const Scene& scene, const PlanOptions& options,
-                    std::vector<Question>& questions)
+void include_hidden(std::map<int, AtomType>& types, const Scene& scene, const PlanOptions& options, std::vector<Question>& questions)
 {
   if (scene.unknown_particles.empty()) return;
   if (!options.radius_max) return ask(questions, first_of(scene.unknown_particles), radius_option);
@@ -99,8 +94,7 @@ void include_hidden(std::map<int, AtomType>& types, const Scene& scene, const Pl
 
 }  // namespace
 
-std::map<int, AtomType> particle_types(const Scene& scene, const PlanOptions& options,
-                                       std::vector<Question>& questions)
+std::map<int, AtomType> particle_types(const Scene& scene, const PlanOptions& options, std::vector<Question>& questions)
 {
   std::map<int, AtomType> types;
   for (Source s : sources_of(scene, options, questions)) {
@@ -113,8 +107,7 @@ std::map<int, AtomType> particle_types(const Scene& scene, const PlanOptions& op
   return types;
 }
 
-std::optional<AtomType> wall_type(const Scene& scene, int type, const PlanOptions& options,
-                                  std::vector<Question>& questions)
+std::optional<AtomType> wall_type(const Scene& scene, int type, const PlanOptions& options, std::vector<Question>& questions)
 {
   AtomType t;
   t.type = type;

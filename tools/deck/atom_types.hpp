@@ -22,11 +22,9 @@ struct AtomType
 };
 
 /// The types that have particles. Asks for what is missing.
-std::map<int, AtomType> particle_types(const Scene& scene, const PlanOptions& options,
-                                       std::vector<Question>& questions);
+std::map<int, AtomType> particle_types(const Scene& scene, const PlanOptions& options, std::vector<Question>& questions);
 
 /// The type of a wall whose material gives way; empty where its moduli are missing, which it requires.
-std::optional<AtomType> wall_type(const Scene& scene, int type, const PlanOptions& options,
-                                  std::vector<Question>& questions);
+std::optional<AtomType> wall_type(const Scene& scene, int type, const PlanOptions& options, std::vector<Question>& questions);
 
 }  // namespace granulaw::deck

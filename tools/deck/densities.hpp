@@ -13,9 +13,9 @@ namespace granulaw::deck {
 struct OtherDensity
 {
   int type = 1;
-  std::string name;                  ///< of the material
+  std::string name;                     ///< of the material
   double of_deck = 0, of_material = 0;  ///< kg/m^3; of the deck: mass over the sphere's volume, the largest
-  std::string reason;                ///< empty: the deck says so
+  std::string reason;                   ///< empty: the deck says so
   std::string sentence() const;
 };
 std::vector<OtherDensity> other_densities(const Scene& scene, const PlanOptions& options);

@@ -21,9 +21,7 @@ std::string launcher()
 {
   if (const char* chosen = std::getenv("GRANULAW_LAUNCHER"); chosen && *chosen) return std::filesystem::absolute(chosen).string();
   if (const std::string own = own_file("liggghts-mpm"); !own.empty()) return own;
-  fail("mpm",
-       "LIGGGHTS reads the deck, and liggghts-mpm is not beside this program (set GRANULAW_LAUNCHER to its "
-       "path)");
+  fail("mpm", "LIGGGHTS reads the deck, and liggghts-mpm is not beside this program (set GRANULAW_LAUNCHER to its path)");
 }
 
 /// Words and file of a process.
@@ -35,8 +33,7 @@ struct Output
 };
 
 /// liggghts-mpm with an option that takes a path as its last value.
-Output start_launcher(const std::string& folder, const std::vector<std::string>& option,
-                      const std::vector<std::string>& words)
+Output start_launcher(const std::string& folder, const std::vector<std::string>& option, const std::vector<std::string>& words)
 {
   const int file = memory_file("mpm");
   Process process{.words = {launcher()}, .folder = folder};

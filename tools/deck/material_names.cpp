@@ -39,19 +39,16 @@ std::optional<LawMaterial> material_by_deck(const std::string& name, int type, c
 
 }  // namespace
 
-void name_materials(PlanOptions& into, const Scene& scene, const NamedMaterials& materials,
-                    const std::vector<std::string>& given, bool from_file)
+void name_materials(PlanOptions& into, const Scene& scene, const NamedMaterials& materials, const std::vector<std::string>& given, bool from_file)
 {
   const std::vector<std::string>& names = given.empty() ? scene.material_names : given;
   const auto& [path, known] = materials;
   // one material, one type: there is nothing to name
-  if (from_file && names.empty() && known.size() == 1 && scene.types <= 1)
-    into.materials[1] = known.begin()->second;
+  if (from_file && names.empty() && known.size() == 1 && scene.types <= 1) into.materials[1] = known.begin()->second;
   if (known.empty()) return;
   const std::string who = !given.empty() ? "--materials" : fmt::format("{}: 'materials' of pair_style", scene.deck);
   if (scene.types > 0 && names.size() > static_cast<std::size_t>(scene.types))
-    fail(who, fmt::format("more names than the deck's {} atom types", scene.types),
-         fmt::format("{}", fmt::join(names, " ")));
+    fail(who, fmt::format("more names than the deck's {} atom types", scene.types), fmt::format("{}", fmt::join(names, " ")));
   std::vector<std::string> known_names;
   for (const auto& entry : known) known_names.push_back(entry.first);
   const std::set<int> deforming = deforming_types(scene);
@@ -62,9 +59,7 @@ void name_materials(PlanOptions& into, const Scene& scene, const NamedMaterials&
       continue;
     }
     const auto by_deck = material_by_deck(names[k], type, scene);
-    if (names[k] != elastic_name && deforming.contains(type))
-      fail_unknown(who, fmt::format("{} has no material for atom type {}", path, type), names[k],
-                   known_names);
+    if (names[k] != elastic_name && deforming.contains(type)) fail_unknown(who, fmt::format("{} has no material for atom type {}", path, type), names[k], known_names);
     if (by_deck) into.materials[type] = *by_deck;
   }
 }

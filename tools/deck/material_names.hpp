@@ -20,7 +20,6 @@ struct NamedMaterials
 /// gives them. A name that the file lacks stays as the deck describes it where its type has walls only, which
 /// are rigid, and where it is the plug-in's own `elastic`. Throws Error for any other. `from_file`: the one
 /// material of a materials file needs no name where the deck has one type.
-void name_materials(PlanOptions& into, const Scene& scene, const NamedMaterials& materials,
-                    const std::vector<std::string>& given, bool from_file);
+void name_materials(PlanOptions& into, const Scene& scene, const NamedMaterials& materials, const std::vector<std::string>& given, bool from_file);
 
 }  // namespace granulaw::deck

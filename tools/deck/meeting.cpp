@@ -1,10 +1,10 @@
-#include "deck/meeting.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "deck/geometry.hpp"
+#include "deck/hertz.hpp"
+#include "deck/plan_options.hpp"
 
 namespace granulaw::deck {
 
@@ -17,8 +17,7 @@ double Meeting::one_body_density(double r_eff, double m_eff) const
 Meeting meeting_of(const AtomType& a, const AtomType& b)
 {
   const bool a_yields = yields_first(a.material, b.material);
-  const LawMaterial &yielding = a_yields ? a.material : b.material,
-                    &partner = a_yields ? b.material : a.material;
+  const LawMaterial &yielding = a_yields ? a.material : b.material, &partner = a_yields ? b.material : a.material;
   Meeting m;
   m.a = a.type;
   m.b = b.type;
@@ -55,6 +54,27 @@ Meeting meeting_with_rigid_wall(const AtomType& a, int wall_type)
 std::string types_text(const Meeting& meeting)
 {
   return fmt::format("{}:{}{}", meeting.a, meeting.wall ? "wall " : "", meeting.b);
+}
+
+namespace {
+
+std::optional<Collision> by_law(const PlanOptions& options, const Meeting& m, double r_eff, double m_eff, double speed)
+{
+  return options.collide && m.known_yield && speed > 0 ? options.collide(m, r_eff, m_eff, speed) : std::nullopt;
+}
+
+}  // namespace
+
+Overlap overlap_of(const PlanOptions& options, const Meeting& m, double r_eff, double m_eff, double speed)
+{
+  if (const auto collision = by_law(options, m, r_eff, m_eff, speed)) return {collision->depth * m.mapping.length(r_eff), collision->basis};
+  return {hertz_overlap(m.mapping.e_star_pair(), r_eff, m_eff, speed), "Hertz"};
+}
+
+double restitution_of(const PlanOptions& options, const Meeting& m, double r_eff, double m_eff, double speed)
+{
+  const auto collision = by_law(options, m, r_eff, m_eff, speed);
+  return collision ? collision->restitution : 1.0;
 }
 
 }  // namespace granulaw::deck

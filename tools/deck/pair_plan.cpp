@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/scales.hpp"
-#include "deck/collision.hpp"
 #include "deck/hertz.hpp"
 #include "deck/plan_options.hpp"
 #include "law/contact_step.hpp"
@@ -29,8 +28,7 @@ void include_yield(PairPlan& p, const SizedEncounter& size)
 {
   const Meeting& m = p.meeting;
   if (!m.yields.yields()) return;
-  const double density = m.one_body_density(size.radius, size.mass), e_star = m.mapping.e_star,
-               yield = m.yields.yield_stress;
+  const double density = m.one_body_density(size.radius, size.mass), e_star = m.mapping.e_star, yield = m.yields.yield_stress;
   p.onset = std::min(p.onset, onset_velocity(e_star, yield, density, m.yields.poisson_ratio));
   p.yield_velocity = std::min(p.yield_velocity, granulaw::yield_velocity(e_star, yield, density));
   p.damage_number = granulaw::damage_number(m.yields, m.mapping, p.speed);
@@ -76,8 +74,7 @@ void include_time_step(PairPlan& p, const SizedEncounter& size, const PlanOption
   const Meeting& m = p.meeting;
   const auto stiffness = [&](double overlap) {
     std::optional<double> by_law;
-    if (options.stiffness && m.known_yield)
-      by_law = options.stiffness(m, size.radius_a, size.radius_b, size.radius, overlap);
+    if (options.stiffness && m.known_yield) by_law = options.stiffness(m, size.radius_a, size.radius_b, size.radius, overlap);
     return by_law.value_or(hertz_stiffness(m.mapping.e_star_pair(), size.radius, overlap));
   };
   p.time_step = std::min(p.time_step, largest_step_to(p.overlap * size.radius, size.mass, stiffness));
@@ -99,8 +96,7 @@ PairPlan plan_pair(const Encounter& e, const PlanOptions& options, double stretc
   }
   const LawMaterial& yields = p.meeting.yields;
   const bool is_pressed_to_yield =
-      p.overlap_basis == "pressed" && yields.yields() &&
-      p.depth > onset_overlap(p.meeting.mapping.e_star, yields.yield_stress, yields.poisson_ratio);
+      p.overlap_basis == "pressed" && yields.yields() && p.depth > onset_overlap(p.meeting.mapping.e_star, yields.yield_stress, yields.poisson_ratio);
   p.needs_table = p.meeting.known_yield && (p.speed > p.onset || is_pressed_to_yield);
   if (range) include_visited_overlap(p, visited_margin * range->overlap / stretch);
   for (const SizedEncounter& size : e.sizes) include_time_step(p, size, options);

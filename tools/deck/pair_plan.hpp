@@ -25,9 +25,9 @@ struct PairPlan
   double depth = 0;           ///< largest, over lambda R*: the table's own coordinate
   std::string overlap_basis;  ///< "law", "Thornton" or "Hertz", of an impact; "pressed": by heavier bodies; "visited"
   double contact_time = 0;    ///< s, shortest: Hertz at the largest speed, smallest particles
-  double time_step = 0;  ///< s, largest_step (law/contact_step.hpp) to `overlap`, unstretched; infinity: any
-  bool needs_table = false;  ///< it yields; false: Hertz suffices
-  bool visited = true;       ///< false: a run did not meet it
+  double time_step = 0;       ///< s, largest_step (law/contact_step.hpp) to `overlap`, unstretched; infinity: any
+  bool needs_table = false;   ///< it yields; false: Hertz suffices
+  bool visited = true;        ///< false: a run did not meet it
 };
 
 /// Two bodies that may meet, how fast, and what others do to their contact.
@@ -47,7 +47,6 @@ struct Encounter
 };
 
 /// `stretch`: of the deck's law; what the run `visited` (null: none) replaces what is foreseen.
-PairPlan plan_pair(const Encounter& encounter, const PlanOptions& options, double stretch,
-                   const Visited* visited);
+PairPlan plan_pair(const Encounter& encounter, const PlanOptions& options, double stretch, const Visited* visited);
 
 }  // namespace granulaw::deck

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "deck/digits.hpp"
 #include "law/law.hpp"
 #include "law/plan_notes.hpp"
 #include "law/range.hpp"
@@ -45,8 +46,8 @@ void add_particle_pairs(std::vector<Encounter>& encounters, const Scene& scene, 
       Encounter& e = encounters.emplace_back(Encounter{meeting_of(a->second, b->second), {}});
       for (const Body* i : strikes.bodies(a->first))
         for (const Body* j : strikes.bodies(b->first))
-          e.sizes.push_back({i->radius, j->radius, effective_radius(i->radius, j->radius), effective_mass(i->mass, j->mass),
-                             strikes.between(*i, *j), strikes.load_between(*i, *j)});
+          e.sizes.push_back(
+              {i->radius, j->radius, effective_radius(i->radius, j->radius), effective_mass(i->mass, j->mass), strikes.between(*i, *j), strikes.load_between(*i, *j)});
     }
 }
 
@@ -66,8 +67,7 @@ std::map<WallKind, std::vector<const Wall*>> kinds_of_walls(const SpeedBound& sp
 }
 
 /// The types of the walls whose material gives way, as far as they are known. Asks for their moduli.
-AtomTypes deformable_walls(const Scene& scene, const SpeedBound& speeds, const PlanOptions& options,
-                           std::vector<Question>& questions)
+AtomTypes deformable_walls(const Scene& scene, const SpeedBound& speeds, const PlanOptions& options, std::vector<Question>& questions)
 {
   AtomTypes walls;
   for (const Wall* w : speeds.walls())
@@ -77,8 +77,7 @@ AtomTypes deformable_walls(const Scene& scene, const SpeedBound& speeds, const P
 }
 
 /// Particles of each type with each kind of wall.
-void add_wall_pairs(std::vector<Encounter>& encounters, const AtomTypes& types, const AtomTypes& walls,
-                    const SpeedBound& speeds, const Strikes& strikes)
+void add_wall_pairs(std::vector<Encounter>& encounters, const AtomTypes& types, const AtomTypes& walls, const SpeedBound& speeds, const Strikes& strikes)
 {
   const auto add = [&](const Meeting& meeting, const std::vector<const Wall*>& of_kind) {
     Encounter& e = encounters.emplace_back(Encounter{meeting, {}});
@@ -100,17 +99,7 @@ void ask_for_yield_stresses(const AtomTypes& types, const AtomTypes& walls, std:
   for (const AtomTypes* bodies : {&types, &walls})
     for (const auto& [type, t] : *bodies)
       if (!t.known_yield) unknown.insert(type);
-  for (const int type : unknown)
-    ask(questions, fmt::format("the yield stress of type {}", type),
-        "--materials-file FILE --materials NAME...");
-}
-
-/// To two digits.
-double rounded_up(double x)
-{
-  if (x <= 0) return 0.0;
-  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
-  return std::ceil(x / unit) * unit;
+  for (const int type : unknown) ask(questions, fmt::format("the yield stress of type {}", type), "--materials-file FILE --materials NAME...");
 }
 
 /// The axes of the table: a fifth more than foreseen, as far as a table goes.
@@ -121,12 +110,11 @@ void set_axes(Plan& plan)
   for (const PairPlan& p : plan.pairs) {
     if (!p.needs_table || !p.visited) continue;
     depth = std::max(depth, p.depth);
-    damage_number =
-        std::max({damage_number, p.damage_number, p.axis_number});  // the pair rule's axis is the latter
+    damage_number = std::max({damage_number, p.damage_number, p.axis_number});  // the pair rule's axis is the latter
   }
   plan.axis_matters = damage_number > negligible_damage_number;
   if (depth > 0) plan.depth = std::clamp(rounded_up(margin * depth), shallowest_table, deepest_law);
-  plan.damage_number = std::min(fastest_law, rounded_up(margin * damage_number));
+  if (damage_number > 0) plan.damage_number = std::min(fastest_law, rounded_up(margin * damage_number));
 }
 
 /// A wall in motion does any work, and gravity along a periodic direction as well.
@@ -135,23 +123,20 @@ void note_unbounded(Plan& plan, const Scene& scene, const AtomTypes& types, cons
   for (const auto& [type, t] : types) {
     double slip = 0;
     for (const Body* body : strikes.bodies(type)) slip = std::max(slip, strikes.slip_speed(*body));
-    const bool is_fastest = std::any_of(plan.pairs.begin(), plan.pairs.end(), [touching = type](const PairPlan& p) {
-      return p.meeting.wall && p.meeting.a == touching && p.speed_basis == "slip";
-    });
+    const bool is_fastest = std::any_of(
+        plan.pairs.begin(), plan.pairs.end(), [touching = type](const PairPlan& p) { return p.meeting.wall && p.meeting.a == touching && p.speed_basis == "slip"; });
     if (is_fastest)
-      plan.not_bounded.push_back(fmt::format(
-          "speeds between particles where one of type {} slips out from under a heavier one; it leaves with up to {:.3g} m/s", type, slip));
+      plan.not_bounded.push_back(
+          fmt::format("speeds between particles where one of type {} slips out from under a heavier one; it leaves with up to {:.3g} m/s", type, slip));
   }
   std::vector<std::string> moving;
   for (const Wall* w : speeds.walls())
     if (w->push_speed > 0) moving.push_back(fmt::format("'{}' ({})", w->id, w->where));
   if (!moving.empty())
-    plan.not_bounded.push_back(fmt::format("overlaps where {} {} particles against others or a wall", fmt::join(moving, ", "),
-                                           moving.size() == 1 ? "presses" : "press"));
+    plan.not_bounded.push_back(fmt::format("overlaps where {} {} particles against others or a wall", fmt::join(moving, ", "), moving.size() == 1 ? "presses" : "press"));
   for (std::size_t k = 0; k < 3; ++k)
     if (scene.periodic[k] && std::abs(speeds.upward()[k]) > 1e-3)
-      plan.not_bounded.push_back(fmt::format("speeds along {}, a periodic direction with gravity: those of one length of the box stand above",
-                                             "xyz"[k]));
+      plan.not_bounded.push_back(fmt::format("speeds along {}, a periodic direction with gravity: those of one length of the box stand above", "xyz"[k]));
 }
 
 void set_time_step(Plan& plan, double stretch)
@@ -166,8 +151,7 @@ void set_cost(Plan& plan, const Scene& scene, const PlanOptions& options)
     plan.particle_steps += r.steps * options.particles.value_or(r.particles);
     steps += r.steps;
   }
-  if (steps > 0 && plan.particle_steps == 0)
-    ask(plan.questions, "how many particles there are", "--particles N");
+  if (steps > 0 && plan.particle_steps == 0) ask(plan.questions, "how many particles there are", "--particles N");
   plan.unknown_cost = scene.left_loop;
   if (!plan.unknown_cost.empty()) plan.particle_steps = std::nan("");
   plan.hours = plan.particle_steps / options.rate / 3600;
@@ -225,9 +209,7 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
 
 const PairPlan* Plan::stiffest() const
 {
-  const auto found =
-      std::min_element(pairs.begin(), pairs.end(),
-                       [](const PairPlan& a, const PairPlan& b) { return a.time_step < b.time_step; });
+  const auto found = std::min_element(pairs.begin(), pairs.end(), [](const PairPlan& a, const PairPlan& b) { return a.time_step < b.time_step; });
   return found != pairs.end() && std::isfinite(found->time_step) ? &*found : nullptr;
 }
 
@@ -245,8 +227,7 @@ std::vector<std::string> beyond_laws(const Plan& plan)
     if (!p.visited || !p.meeting.known_yield || !p.meeting.yields.yields()) continue;
     if (!(p.depth > deepest_law || p.damage_number > fastest_law)) continue;
     sentences.push_back(fmt::format(
-        "{}:{} reaches delta/R {:.3g} and I {:.3g} in the deck, and laws end at {:g} and {:g}: the material is too soft for "
-        "these speeds; where its youngs_modulus is lowered for the time step, give the real one (docs/guide/plan.md#soften)",
+        "{}:{} reaches delta/R {:.3g} and I {:.3g} in the deck, and laws end at {:g} and {:g}: the material is too soft for these speeds; where its youngs_modulus is lowered for the time step, give the real one (docs/guide/plan.md#soften)",
         p.meeting.name_a, p.meeting.name_b, p.depth, p.damage_number, deepest_law, fastest_law));
   }
   return sentences;
@@ -258,8 +239,7 @@ PairSizes pair_sizes(const Plan& plan)
   for (const PairPlan& p : plan.pairs) {
     if (!p.needs_table || !p.visited) continue;
     sizes.thick_walls = sizes.thick_walls || p.meeting.deformable;
-    if (!p.meeting.wall)
-      sizes.radius_ratio = std::min(largest_radius_ratio, plan.radius_max / plan.radius_min);
+    if (!p.meeting.wall) sizes.radius_ratio = std::min(largest_radius_ratio, plan.radius_max / plan.radius_min);
   }
   return sizes;
 }
@@ -270,11 +250,8 @@ std::string table_command(const Plan& plan, const std::string& materials_file)
   std::string pairs;
   for (const std::string& pair : plan.law_pairs) pairs += " --pair " + pair;
   const PairSizes sizes = pair_sizes(plan);
-  return fmt::format("mpm table {}{} --depth {:.3g} --damage-number {:.3g}{}{} -o law.h5",
-                     materials_file.empty() ? "MATERIALS.toml" : materials_file, pairs, plan.depth,
-                     plan.damage_number,
-                     sizes.radius_ratio > 1 ? fmt::format(" --radius-ratio {:.4g}", sizes.radius_ratio) : "",
-                     sizes.thick_walls ? "" : " --no-thick-walls");
+  return fmt::format("mpm table {}{} --depth {:.3g} --damage-number {:.3g}{}{} -o law.h5", materials_file.empty() ? "MATERIALS.toml" : materials_file, pairs, plan.depth,
+      plan.damage_number, sizes.radius_ratio > 1 ? fmt::format(" --radius-ratio {:.4g}", sizes.radius_ratio) : "", sizes.thick_walls ? "" : " --no-thick-walls");
 }
 
 }  // namespace granulaw::deck

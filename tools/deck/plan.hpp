@@ -20,14 +20,22 @@ struct Plan
   double mass_min = 0, mass_max = 0;      ///< kg
   /// s, the largest that the planned overlaps of all pairs allow, stretched as the deck says; 0: none meets.
   double time_step = 0;
-  const PairPlan* stiffest() const;  ///< the pair that requires it; null: none meets
+  const PairPlan* stiffest() const;      ///< the pair that requires it; null: none meets
   double particle_steps = 0, hours = 0;  ///< not a number: they depend on the loop `unknown_cost`
   std::string unknown_cost;              ///< "FILE:LINE" of its run; empty: they are known
   std::vector<std::string> law_pairs;    ///< "a:b" that the plug-in requires of the law, in order
-  double depth = 0, damage_number = 0;  ///< that the table needs, margins included; 0: no table
-  bool axis_matters = false;            ///< the velocity axis
+  double depth = 0, damage_number = 0;   ///< that the table needs, margins included; 0: no table
+  bool axis_matters = false;             ///< the velocity axis
   std::vector<std::string> not_bounded;  ///< what of the scene no energy bounds
   bool complete() const { return questions.empty(); }
+};
+
+/// A deck read and planned.
+struct PlannedDeck
+{
+  Scene scene;
+  PlanOptions options;
+  Plan plan;
 };
 
 /// Below this I inertia takes less than 1 % of e: the law needs no velocity axis

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,16 @@ class Unanswered : public Error
 };
 
 /// Adds the question, unless it is there.
-void ask(std::vector<Question>& questions, const std::string& what, const std::string& option);
+inline void ask(std::vector<Question>& questions, const std::string& what, const std::string& option)
+{
+  const bool is_there = std::any_of(questions.begin(), questions.end(), [&](const Question& q) { return q.what == what && q.option == option; });
+  if (!is_there) questions.push_back({what, option});
+}
 
 /// "FIRST (and 3 more)": `reasons` is not empty.
-std::string first_of(const std::vector<std::string>& reasons);
+inline std::string first_of(const std::vector<std::string>& reasons)
+{
+  return reasons[0] + (reasons.size() > 1 ? " (and " + std::to_string(reasons.size() - 1) + " more)" : "");
+}
 
 }  // namespace granulaw::deck

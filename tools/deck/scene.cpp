@@ -21,8 +21,7 @@ void to_si(Scene& scene)
 {
   if (scene.units == "si") return;
   if (scene.units != "cgs")
-    fail(scene.deck, "its units cannot be planned with (LIGGGHTS's own, where a deck says none, are lj)",
-         "units " + scene.units, "units si, units cgs");
+    fail(scene.deck, "its units cannot be planned with (LIGGGHTS's own, where a deck says none, are lj)", "units " + scene.units, "units si, units cgs");
   constexpr double length = 0.01, density = 1000, pressure = 0.1;
   const auto scale = [](Box& box) {
     box.low = length * box.low;
@@ -38,7 +37,6 @@ void to_si(Scene& scene)
     for (double* value : {&s.radius_min, &s.radius_max, &s.speed}) *value *= length;
     s.density *= density;
     scale(s.centres);
-    for (Box::Point& p : s.together) p = length * p;
   }
   for (Wall& wall : scene.walls) {
     for (double* value : {&wall.speed, &wall.drag_speed, &wall.push_speed, &wall.level_push_speed, &wall.lift}) *value *= length;
@@ -80,13 +78,10 @@ std::string not_run(const Scene& scene)
 {
   const std::string where = run.scene.stopped_at.empty() ? deck : run.scene.stopped_at;
   const std::string what = complaint(run.said);
-  if (what.starts_with("LIGGGHTS was ended by signal"))
-    fail(where, what + " in this command: where LIGGGHTS runs the deck, please report it");
+  if (what.starts_with("LIGGGHTS was ended by signal")) fail(where, what + " in this command: where LIGGGHTS runs the deck, please report it");
   if (what.starts_with("Cannot open restart file "))
-    fail(where, "the restart file is not there: the deck that writes it must run first, some steps suffice",
-         what.substr(25));
-  if (what == "Substitution for illegal variable")
-    fail(where, "a variable has no value here (" + what + "): give it by --var NAME VALUE");
+    fail(where, "the restart file is not there: the deck that writes it must run first, some steps suffice", what.substr(25));
+  if (what == "Substitution for illegal variable") fail(where, "a variable has no value here (" + what + "): give it by --var NAME VALUE");
   fail(where, what + not_run(run.scene));
 }
 
@@ -96,8 +91,7 @@ std::string complaint(const std::string& said)
 {
   static const std::regex pattern(R"((^|\n)ERROR( on proc \d+)?: ([^\n]*))");
   std::smatch found;
-  if (!std::regex_search(said, found, pattern))
-    return "LIGGGHTS cannot read it: " + said.substr(said.size() - std::min<std::size_t>(said.size(), 300));
+  if (!std::regex_search(said, found, pattern)) return "LIGGGHTS cannot read it: " + said.substr(said.size() - std::min<std::size_t>(said.size(), 300));
   return std::regex_replace(found[3].str(), std::regex(R"( \([^()]*\.(cpp|h):\d+\)$)"), "");
 }
 
@@ -111,7 +105,7 @@ std::vector<std::string> words_of(const std::string& deck, const Presets& preset
   return words;
 }
 
-Scene read_scene(const std::string& deck, const Presets& presets)
+Scene read_scene(const std::string& deck, const Presets& presets, bool also_from_here)
 {
   std::error_code ignored;
   if (!fs::is_regular_file(deck, ignored)) fail(deck, "cannot be read");
@@ -119,7 +113,7 @@ Scene read_scene(const std::string& deck, const Presets& presets)
   // its paths count from its own folder, or, as `liggghts -in FOLDER/DECK` has it, from where one stands
   std::string folder = path.parent_path().string();
   DryRun run = dry_run(folder, words_of(path.filename().string(), presets));
-  if (!run.ended && !folder.empty()) {
+  if (!run.ended && also_from_here && !folder.empty()) {
     if (DryRun from_here = dry_run("", words_of(deck, presets)); from_here.ended) {
       run = std::move(from_here);
       folder.clear();

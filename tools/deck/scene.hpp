@@ -13,7 +13,7 @@ std::string complaint(const std::string& said);
 std::vector<std::string> words_of(const std::string& deck, const Presets& presets);
 
 /// LIGGGHTS reads the deck (`liggghts-mpm -plan`). Throws Error where that program is missing, or with LIGGGHTS's own
-/// sentence where the deck, or a file that it needs, cannot be used.
-Scene read_scene(const std::string& deck, const Presets& presets = {});
+/// sentence where the deck, or a file that it needs, cannot be used. `also_from_here`: its paths may count from where one stands.
+Scene read_scene(const std::string& deck, const Presets& presets = {}, bool also_from_here = true);
 
 }  // namespace granulaw::deck

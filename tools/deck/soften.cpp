@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "base/scales.hpp"
-#include "deck/hertz.hpp"
 #include "contact/thornton.hpp"
+#include "deck/digits.hpp"
+#include "deck/hertz.hpp"
 
 namespace granulaw::deck {
 
@@ -21,14 +22,12 @@ struct EffectiveBody
 
 EffectiveBody smallest(const Plan& plan, const Meeting& m)
 {
-  return m.wall ? EffectiveBody{plan.radius_min, plan.mass_min}
-                : EffectiveBody{0.5 * plan.radius_min, 0.5 * plan.mass_min};
+  return m.wall ? EffectiveBody{plan.radius_min, plan.mass_min} : EffectiveBody{0.5 * plan.radius_min, 0.5 * plan.mass_min};
 }
 
 EffectiveBody largest(const Plan& plan, const Meeting& m)
 {
-  return m.wall ? EffectiveBody{plan.radius_max, plan.mass_max}
-                : EffectiveBody{0.5 * plan.radius_max, 0.5 * plan.mass_max};
+  return m.wall ? EffectiveBody{plan.radius_max, plan.mass_max} : EffectiveBody{0.5 * plan.radius_max, 0.5 * plan.mass_max};
 }
 
 std::string name_of(const Meeting& m)
@@ -53,8 +52,7 @@ double ground_area(const Scene& scene)
   const double g = norm(scene.gravity);
   if (ground.empty() || g == 0) return 0;
   const Vec3 size = ground.size(), n = 1 / g * scene.gravity;
-  return std::abs(n[0]) * size[1] * size[2] + std::abs(n[1]) * size[0] * size[2] +
-         std::abs(n[2]) * size[0] * size[1];
+  return std::abs(n[0]) * size[1] * size[2] + std::abs(n[1]) * size[0] * size[2] + std::abs(n[2]) * size[0] * size[1];
 }
 
 /// Height of the bed if all particles lie on the ground, m.
@@ -77,12 +75,6 @@ double flow_time(const Scene& scene, double diameter)
   return time;
 }
 
-double two_digits_down(double x)
-{
-  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
-  return std::floor(x / unit * (1 + 1e-12)) * unit;
-}
-
 /// F_y, N: Hertz's force at the overlap where yield begins; infinity: elastic.
 double yield_load(const Meeting& m, double r_eff)
 {
@@ -92,8 +84,7 @@ double yield_load(const Meeting& m, double r_eff)
 }
 
 /// Stretch of one pair within the limits.
-PairStretch stretch_of(const PairPlan& p, const Plan& plan, const Softening& scene, double g,
-                       const SoftenLimits& limits)
+PairStretch stretch_of(const PairPlan& p, const Plan& plan, const Softening& scene, double g, const SoftenLimits& limits)
 {
   const Meeting& m = p.meeting;
   const double diameter = 2 * plan.radius_min, density = plan.mass_min / ball_volume(plan.radius_min);
@@ -126,7 +117,7 @@ void set_stretch(Softening& result)
     include(q.by_time, "contact duration of", q);
     include(q.by_static, "static load on", q);
   }
-  result.stretch = std::max(1.0, two_digits_down(bound));
+  result.stretch = std::max(1.0, rounded_down(bound));
 }
 
 /// Largest overlap, and load and plastic set at the bed's bottom, under the stretch.
@@ -137,14 +128,12 @@ void include_loads(Softening& result, const PairStretch& q, double r_eff)
   result.static_ratio = std::max(result.static_ratio, load / q.yield_load);
   if (load > q.yield_load) {
     const double yield_pressure = customary_yield_pressure * q.pair->meeting.yields.yield_stress;
-    result.extra_set =
-        std::max(result.extra_set, s * (load - q.yield_load) / (M_PI * yield_pressure * r_eff * r_eff));
+    result.extra_set = std::max(result.extra_set, s * (load - q.yield_load) / (M_PI * yield_pressure * r_eff * r_eff));
   }
 }
 
 /// e by the law at hand, else by Thornton's closed form.
-double restitution(const PlanOptions& options, const Meeting& m, const EffectiveBody& size, double speed,
-                   std::string& basis)
+double restitution(const PlanOptions& options, const Meeting& m, const EffectiveBody& size, double speed, std::string& basis)
 {
   if (options.collide)
     if (const auto collision = options.collide(m, size.radius, size.mass, speed)) {
@@ -158,8 +147,7 @@ double restitution(const PlanOptions& options, const Meeting& m, const Effective
 }
 
 /// The pair with Young's modulus lowered to the same time step.
-Softening::Naive lowered_modulus(const PairPlan& p, const EffectiveBody& size, double modulus_factor,
-                                 const PlanOptions& options)
+Softening::Naive lowered_modulus(const PairPlan& p, const EffectiveBody& size, double modulus_factor, const PlanOptions& options)
 {
   Softening::Naive n;
   n.pair = name_of(p.meeting);
@@ -178,12 +166,10 @@ Softening::Naive lowered_modulus(const PairPlan& p, const EffectiveBody& size, d
 Softening soften(const Scene& scene, const Plan& plan, const PlanOptions& options, const SoftenLimits& limits)
 {
   Softening result;
-  result.fill_height =
-      limits.fill_height > 0 ? limits.fill_height : bed_height(scene, plan, options, limits.solid_fraction);
+  result.fill_height = limits.fill_height > 0 ? limits.fill_height : bed_height(scene, plan, options, limits.solid_fraction);
   result.flow_time = flow_time(scene, 2 * plan.radius_min);
   for (const PairPlan& p : plan.pairs)
-    if (p.visited && p.speed > 0)
-      result.pairs.push_back(stretch_of(p, plan, result, norm(scene.gravity), limits));
+    if (p.visited && p.speed > 0) result.pairs.push_back(stretch_of(p, plan, result, norm(scene.gravity), limits));
   set_stretch(result);
   // the deck's own stretch is in both; its step may be shorter for other reasons than contacts
   const double step = scene.time_step > 0 ? std::min(plan.time_step, scene.time_step) : plan.time_step;
@@ -193,8 +179,7 @@ Softening soften(const Scene& scene, const Plan& plan, const PlanOptions& option
     const Meeting& m = q.pair->meeting;
     const EffectiveBody small = smallest(plan, m);
     include_loads(result, q, small.radius);
-    if (m.known_yield && m.yields.yields())
-      result.naive.push_back(lowered_modulus(*q.pair, small, result.modulus_factor, options));
+    if (m.known_yield && m.yields.yields()) result.naive.push_back(lowered_modulus(*q.pair, small, result.modulus_factor, options));
   }
   return result;
 }

@@ -22,10 +22,10 @@ struct PairStretch
 {
   const PairPlan* pair = nullptr;
   double by_overlap = 0, by_time = 0, by_static = 0;  ///< largest s by each limit; infinity: no bound
-  double slow_speed = 0;    ///< m/s: of the slowest impact that counts, a fall through one diameter
-  double contact_time = 0;  ///< s, Hertz's, at that speed
-  double static_load = 0;   ///< N on a contact at the bed's bottom
-  double yield_load = 0;    ///< F_y, N, of the smallest particles; infinity: elastic
+  double slow_speed = 0;                              ///< m/s: of the slowest impact that counts, a fall through one diameter
+  double contact_time = 0;                            ///< s, Hertz's, at that speed
+  double static_load = 0;                             ///< N on a contact at the bed's bottom
+  double yield_load = 0;                              ///< F_y, N, of the smallest particles; infinity: elastic
 };
 
 struct Softening
@@ -49,7 +49,6 @@ struct Softening
   std::vector<Naive> naive;
 };
 
-Softening soften(const Scene& scene, const Plan& plan, const PlanOptions& options,
-                 const SoftenLimits& limits);
+Softening soften(const Scene& scene, const Plan& plan, const PlanOptions& options, const SoftenLimits& limits);
 
 }  // namespace granulaw::deck

@@ -4,64 +4,8 @@
 #include <cmath>
 
 #include "deck/plan_options.hpp"
-#include "deck/shielding.hpp"
 
 namespace granulaw::deck {
-
-namespace {
-
-bool is_flat(const Wall& wall, std::size_t axis)
-{
-  return wall.box.low[axis] == wall.box.high[axis];
-}
-
-/// True if all of the deck's particles are known, equal, start together and at rest.
-bool starts_as_cloud(const Scene& scene)
-{
-  return scene.sources.size() == 1 && !scene.sources[0].together.empty() && scene.sources[0].radius_max > 0 &&
-         scene.unknown_particles.empty() && scene.unknown_speeds.empty();
-}
-
-/// The one floor across `axis`; empty: there is none, several, or what slides down a slope hits others from
-/// the side. Walls along the axis may stand around it, and none may move.
-std::optional<double> single_floor(const Scene& scene, std::size_t axis)
-{
-  std::optional<double> floor;
-  for (const Wall& w : scene.walls) {
-    if (w.speed > 0 || w.drag_speed > 0) return {};
-    if (is_flat(w, axis)) {
-      if (floor.value_or(w.box.low[axis]) != w.box.low[axis]) return {};
-      floor = w.box.low[axis];
-    } else if (!is_flat(w, (axis + 1) % 3) && !is_flat(w, (axis + 2) % 3)) {
-      return {};
-    }
-  }
-  return floor;
-}
-
-/// The cloud of the deck, if its particles are one, lie at random, and fall on one floor that stands still.
-std::optional<Cloud> cloud_of(const Scene& scene, const Vec3& upward)
-{
-  if (!starts_as_cloud(scene)) return {};
-  const auto along = std::find_if(upward.begin(), upward.end(), [](double x) { return std::abs(x) == 1; });
-  if (along == upward.end()) return {};
-  const auto axis = static_cast<std::size_t>(along - upward.begin());
-  const auto floor = single_floor(scene, axis);
-  if (!floor) return {};
-  Cloud cloud;
-  cloud.centres = scene.sources[0].together;
-  cloud.radius = scene.sources[0].radius_max;
-  cloud.g = norm(scene.gravity);
-  cloud.axis = axis;
-  cloud.up = *along;
-  cloud.floor = *floor;
-  cloud.domain = scene.domain;
-  cloud.periodic = scene.periodic;
-  if (!at_random(cloud)) return {};
-  return cloud;
-}
-
-}  // namespace
 
 SpeedBound::SpeedBound(const Scene& scene, const std::map<int, AtomType>& types, const PlanOptions& options)
     : scene_(scene), g_(norm(scene.gravity)), drop_height_(options.drop_height)
@@ -77,8 +21,6 @@ SpeedBound::SpeedBound(const Scene& scene, const std::map<int, AtomType>& types,
   double largest_radius = 0;
   for (const auto& [type, t] : types) largest_radius = std::max(largest_radius, t.radius_max);
   find_walls(largest_radius);
-  if (!options.speed && !options.drop_height && g_ > 0)
-    if (const auto cloud = cloud_of(scene, upward_)) landing_ = landing_speed(*cloud);
 }
 
 /// True of a wall around all starts, as seen along gravity: a box.
@@ -161,8 +103,7 @@ void SpeedBound::ask_for_missing(std::vector<Question>& questions) const
 {
   bool unknown = false;
   for (const auto& [type, f] : flights_)
-    if (g_ > 0 && (!f.known || !std::isfinite(floor_) || !std::isfinite(falling_speed(f, 0, floor_))))
-      unknown = true;
+    if (g_ > 0 && (!f.known || !std::isfinite(floor_) || !std::isfinite(falling_speed(f, 0, floor_)))) unknown = true;
   if (unknown && !drop_height_) ask(questions, "from how high the particles fall", "--drop-height H");
   if (!scene_.unknown_speeds.empty()) ask(questions, first_of(scene_.unknown_speeds), "--speed V");
 }

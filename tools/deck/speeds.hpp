@@ -32,8 +32,6 @@ class SpeedBound
   double push() const { return push_; }
   /// m/s, across gravity, of the walls of a box in motion around the particles: they hit one in turn.
   double shake() const { return shake_; }
-  /// m/s, on the floor that a cloud of equal spheres shields (deck/shielding.hpp); empty: there is none.
-  const std::optional<double>& landing() const { return landing_; }
 
   /// Those that particles can reach.
   const std::vector<const Wall*>& walls() const { return walls_; }
@@ -54,14 +52,13 @@ class SpeedBound
   };
 
   const Scene& scene_;
-  double g_ = 0;                       // m/s^2
-  Vec3 upward_{0, 0, 0};               // 0 without gravity
-  std::optional<double> drop_height_;  // m, given
-  std::map<int, Flight> flights_;      // by type
+  double g_ = 0;                            // m/s^2
+  Vec3 upward_{0, 0, 0};                    // 0 without gravity
+  std::optional<double> drop_height_;       // m, given
+  std::map<int, Flight> flights_;           // by type
   double push_ = 0, drag_ = 0, shake_ = 0;  // m/s, largest of all walls
   std::vector<const Wall*> walls_;
-  double floor_ = Box::infinity;   // m along upward_, the lowest point of these walls
-  std::optional<double> landing_;  // m/s, on the floor that a cloud shields
+  double floor_ = Box::infinity;  // m along upward_, the lowest point of these walls
 
   void follow_sources(const std::map<int, AtomType>& types);
   void lift(Flight& flight) const;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deck/collision.hpp"
 #include "deck/geometry.hpp"
 #include "deck/plan_options.hpp"
 
@@ -41,8 +40,8 @@ double share_of_first(FirstOverlap&& first, SecondOverlap&& second)
 
 }  // namespace
 
-Strikes::Strikes(const SpeedBound& speeds, const Scene& scene, const std::map<int, AtomType>& types,
-                 const std::map<int, AtomType>& deformable, const PlanOptions& options)
+Strikes::Strikes(
+    const SpeedBound& speeds, const Scene& scene, const std::map<int, AtomType>& types, const std::map<int, AtomType>& deformable, const PlanOptions& options)
     : speeds_(speeds), scene_(scene), deformable_(deformable), options_(options)
 {
   for (const auto& [number, type] : types)
@@ -74,16 +73,14 @@ std::vector<const Body*> Strikes::heavier_than(const Body& body) const
 Meeting Strikes::at_wall(const Body& body, const Wall& wall) const
 {
   const auto known = deformable_.find(wall.type);
-  return wall.deformable && known != deformable_.end() ? meeting_with_wall(*body.type, known->second)
-                                                       : meeting_with_rigid_wall(*body.type, wall.type);
+  return wall.deformable && known != deformable_.end() ? meeting_with_wall(*body.type, known->second) : meeting_with_rigid_wall(*body.type, wall.type);
 }
 
 /// The largest e of the walls; of a deck without walls that of two alike.
 double Strikes::rebound(const Body& body, double speed) const
 {
   if (!(speed > 0)) return 0;
-  if (speeds_.walls().empty())
-    return restitution_of(options_, meeting_of(*body.type, *body.type), 0.5 * body.radius, 0.5 * body.mass, speed);
+  if (speeds_.walls().empty()) return restitution_of(options_, meeting_of(*body.type, *body.type), 0.5 * body.radius, 0.5 * body.mass, speed);
   double e = 0;
   std::vector<std::pair<int, bool>> seen;
   for (const Wall* w : speeds_.walls()) {
@@ -144,8 +141,7 @@ void Strikes::strike(State& light, const Body& a, const State& heavy, const Body
 {
   const double approach = heavy.direct + light.direct;
   if (!(approach > 0)) return;
-  const double e = restitution_of(options_, meeting_of(*a.type, *b.type), effective_radius(a.radius, b.radius),
-                                  effective_mass(a.mass, b.mass), approach);
+  const double e = restitution_of(options_, meeting_of(*a.type, *b.type), effective_radius(a.radius, b.radius), effective_mass(a.mass, b.mass), approach);
   const double struck = (1 + e) * b.mass / (a.mass + b.mass) * approach - light.direct;
   if (struck <= light.direct) return;
   light = {struck, std::max(light.turned, turned_by_impact(a, struck)), true};
@@ -195,9 +191,7 @@ Approach Strikes::to(const std::vector<const Wall*>& walls, const Body& a) const
     const Vec3& upward = speeds_.upward();
     const bool falls = norm(upward) > 0;
     const State state = states_at(falls ? w->box.bottom(upward) : 0.0).at(&a);
-    Approach approach{state.direct + w->push_speed, state.is_struck ? "strike" : "fall"};
-    const bool is_floor = falls && w->box.bottom(upward) == w->box.top(upward);
-    if (speeds_.landing() && is_floor && *speeds_.landing() <= approach.speed) approach = {*speeds_.landing(), "shielded fall"};
+    const Approach approach{state.direct + w->push_speed, state.is_struck ? "strike" : "fall"};
     if (fastest.basis.empty() || approach.speed > fastest.speed) fastest = approach;
   }
   if (const double slip = slip_speed(a); slip > fastest.speed) fastest = {slip, "slip"};
@@ -215,8 +209,8 @@ Load Strikes::caught(const Body& heavy, const Body& light, const Body* other, co
     return [this, m, r_eff, mass, speed](double part) { return overlap_of(options_, m, r_eff, part * mass, speed).value; };
   };
   const auto at_heavy = overlap_at(meeting_of(*heavy.type, *light.type), effective_radius(heavy.radius, light.radius));
-  const auto behind = other ? overlap_at(meeting_of(*light.type, *other->type), effective_radius(light.radius, other->radius))
-                            : overlap_at(at_wall(light, *wall), light.radius);
+  const auto behind =
+      other ? overlap_at(meeting_of(*light.type, *other->type), effective_radius(light.radius, other->radius)) : overlap_at(at_wall(light, *wall), light.radius);
   const double part = share_of_first(at_heavy, behind);
   return {(at_backing ? 1 - part : part) * mass, speed};
 }

@@ -21,7 +21,7 @@ struct Body
 struct Approach
 {
   double speed = 0;   ///< m/s
-  std::string basis;  ///< "fall", "shielded fall" (deck/shielding.hpp), "strike", "slip" or "given"
+  std::string basis;  ///< "fall", "strike", "slip" or "given"
 };
 
 /// A head-on collision of this mass, kg, and speed, m/s, presses a contact as far as others' energy does. No mass:
@@ -46,8 +46,7 @@ class Strikes
 {
  public:
   /// Keeps references to all. `deformable`: types of the deformable walls.
-  Strikes(const SpeedBound& speeds, const Scene& scene, const std::map<int, AtomType>& types,
-          const std::map<int, AtomType>& deformable, const PlanOptions& options);
+  Strikes(const SpeedBound& speeds, const Scene& scene, const std::map<int, AtomType>& types, const std::map<int, AtomType>& deformable, const PlanOptions& options);
 
   /// Smallest and largest of a type; one where they are equal.
   std::vector<const Body*> bodies(int type) const;

@@ -46,9 +46,8 @@ TangentialNeed tangential_need(const Scene& scene, const Plan& plan)
     fastest = std::max(fastest, ratio);
   }
   if (need.pair)
-    need.reason = fmt::format("types {} reach {:.3g} V_y, and at friction {:g} {:.0f} % of random collisions stick",
-                              types_text(need.pair->meeting), need.pair->speed / need.pair->yield_velocity, need.friction,
-                              100 * need.sticking);
+    need.reason = fmt::format("types {} reach {:.3g} V_y, and at friction {:g} {:.0f} % of random collisions stick", types_text(need.pair->meeting),
+        need.pair->speed / need.pair->yield_velocity, need.friction, 100 * need.sticking);
   else if (!(most_friction > 0))
     need.reason = "no contact that may yield has friction";
   else if (!(fastest > 0))

@@ -43,19 +43,16 @@ json parsed(const std::string& path)
 /// The two types of an entry; 0 where it does not say them.
 std::pair<int, int> types_of(const json& entry)
 {
-  if (const auto types = entry.find("types"); types != entry.end() && types->is_array() &&
-                                              types->size() == 2 && (*types)[0].is_number_integer() &&
-                                              (*types)[1].is_number_integer())
+  if (const auto types = entry.find("types");
+      types != entry.end() && types->is_array() && types->size() == 2 && (*types)[0].is_number_integer() && (*types)[1].is_number_integer())
     return {(*types)[0].get<int>(), (*types)[1].get<int>()};
-  return {static_cast<int>(number_at(entry, {"type_i", "i"})),
-          static_cast<int>(number_at(entry, {"type_j", "j"}))};
+  return {static_cast<int>(number_at(entry, {"type_i", "i"})), static_cast<int>(number_at(entry, {"type_j", "j"}))};
 }
 
 bool is_wall(const json& entry)
 {
   const auto kind = entry.find("kind");
-  return kind != entry.end() && kind->is_string() &&
-         kind->get<std::string>().find("wall") != std::string::npos;
+  return kind != entry.end() && kind->is_string() && kind->get<std::string>().find("wall") != std::string::npos;
 }
 
 /// Rigid and deformable walls of one type are one range: the larger of each.
@@ -91,8 +88,7 @@ Visited read_visited(const std::string& path)
       if (a < 1 || b < 1) continue;
       widen(is_wall(entry) ? v.walls[{a, b}] : v.pairs[{std::min(a, b), std::max(a, b)}], range_of(entry));
     }
-  if (!v.pair && !v.wall && v.pairs.empty() && v.walls.empty())
-    fail(path, "holds no contacts", "", "the JSON file of fix granulaw/stats");
+  if (!v.pair && !v.wall && v.pairs.empty() && v.walls.empty()) fail(path, "holds no contacts", "", "the JSON file of fix granulaw/stats");
   return v;
 }
 

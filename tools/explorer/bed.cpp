@@ -49,14 +49,10 @@ const deck::PlanOptions& laws_for(const Atlas& atlas, const Request& r)
 
 Json pair_json(const deck::PairPlan& p)
 {
-  return {{"materials", {p.meeting.name_a, p.meeting.name_b}},
-          {"wall", p.meeting.wall},
-          {"onset_speed_m_per_s", json_number(p.onset)},
-          {"damage_number_max", json_number(p.damage_number)},
-          {"overlap_over_radius_max", json_number(p.overlap)},
-          {"depth", json_number(p.depth)},  // of each sphere of two that are alike, and at a rigid wall: over its radius
-          {"time_step_s", json_number(p.time_step)},
-          {"needs_table", p.needs_table}};
+  return {{"materials", {p.meeting.name_a, p.meeting.name_b}}, {"wall", p.meeting.wall}, {"onset_speed_m_per_s", json_number(p.onset)},
+      {"damage_number_max", json_number(p.damage_number)}, {"overlap_over_radius_max", json_number(p.overlap)},
+      {"depth", json_number(p.depth)},  // of each sphere of two that are alike, and at a rigid wall: over its radius
+      {"time_step_s", json_number(p.time_step)}, {"needs_table", p.needs_table}};
 }
 
 }  // namespace
@@ -73,17 +69,9 @@ Json bed_json(const Atlas& atlas, const Request& r, double height)
   const deck::Softening soft = deck::soften(scene, plan, options, limits);
   Json pairs = Json::array();
   for (const deck::PairPlan& p : plan.pairs) pairs.push_back(pair_json(p));
-  return {{"pairs", pairs},
-          {"velocity_axis_matters", plan.axis_matters},
-          {"time_step_s", json_number(plan.time_step)},
-          {"beyond_laws", deck::beyond_laws(plan)},
-          {"soften",
-           {{"stretch", soft.stretch},
-            {"bound_by", soft.bound},
-            {"time_step_s", json_number(soft.time_step)},
-            {"overlap_over_radius", json_number(soft.overlap)},
-            {"largest_overlap_over_radius", limits.overlap},
-            {"static_load_over_yield_load", json_number(soft.static_ratio)}}}};
+  return {{"pairs", pairs}, {"velocity_axis_matters", plan.axis_matters}, {"time_step_s", json_number(plan.time_step)}, {"beyond_laws", deck::beyond_laws(plan)},
+      {"soften", {{"stretch", soft.stretch}, {"bound_by", soft.bound}, {"time_step_s", json_number(soft.time_step)}, {"overlap_over_radius", json_number(soft.overlap)},
+                     {"largest_overlap_over_radius", limits.overlap}, {"static_load_over_yield_load", json_number(soft.static_ratio)}}}};
 }
 
 }  // namespace granulaw

@@ -18,7 +18,7 @@ void set_partner(Measurement& m, const Request& r)
   const bool own_wall = r.partner == Request::Partner::thick_wall && r.one_material;
   if (r.partner == Request::Partner::sphere || own_wall)
     fail(source, "one body is fitted", own_wall ? "a wall of the sphere's own material" : "two spheres that differ",
-         "a rigid wall, its like, or a deformable wall of a known material");
+        "a rigid wall, its like, or a deformable wall of a known material");
   if (r.partner == Request::Partner::like) m.partner = ImpactPartner::like_sphere;
   if (r.partner == Request::Partner::thick_wall) m.counterpart = r.second;
 }
@@ -33,8 +33,7 @@ Json drops_json(const Atlas& atlas, const Json& json)
   const Request r = request_of(state);
 
   Measurement m = parse_measurement(json.value("data", ""), source);
-  if (m.kind != kinds().front())
-    fail(source, "only restitution is fitted here; mpm calibrate takes all kinds (docs/guide/calibrate.md)");
+  if (m.kind != kinds().front()) fail(source, "only restitution is fitted here; mpm calibrate takes all kinds (docs/guide/calibrate.md)");
   set_partner(m, r);
   complete_standard_deviations(m, number_or(json, "relative_sd", source, 0.01));
 

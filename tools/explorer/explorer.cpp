@@ -19,9 +19,9 @@
 #include "atlas/law_without_runs.hpp"
 #include "base/error.hpp"
 #include "base/scales.hpp"
+#include "bed.hpp"
 #include "contact/tabulated.hpp"
 #include "contact/thornton.hpp"
-#include "bed.hpp"
 #include "drops.hpp"
 #include "law/contact_limits.hpp"
 #include "law/contact_time.hpp"
@@ -35,7 +35,7 @@ namespace granulaw {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-const char* const source = "law";            // leads sentences about a collision
+const char* const source = "law";  // leads sentences about a collision
 
 std::optional<Atlas> atlas;
 
@@ -75,9 +75,7 @@ struct Formula
   Replay collision(double speed, int steps) const
   {
     const double duration = customary_contact_time(pair.e_star, r_eff, m_eff, speed);
-    return replay_collision(
-        [this](double delta, double delta_max) { return pair.evaluate(r_eff, delta, delta_max); }, m_eff, speed,
-        duration, steps);
+    return replay_collision([this](double delta, double delta_max) { return pair.evaluate(r_eff, delta, delta_max); }, m_eff, speed, duration, steps);
   }
 };
 
@@ -123,9 +121,7 @@ Json formula_json(const Formula& formula, double speed)
 /// Speed at which a collision goes as deep as `overlap` (m), to 1e-4; infinity: beyond `fastest` or never.
 double speed_to_overlap(const ChosenPair& c, double overlap, double fastest)
 {
-  const auto reaches = [&](double speed) {
-    return replay_collision(c.law, c.r_eff, c.m_eff, speed, 100).delta_max >= overlap;
-  };
+  const auto reaches = [&](double speed) { return replay_collision(c.law, c.r_eff, c.m_eff, speed, 100).delta_max >= overlap; };
   double low = 1e-9 * fastest, high = fastest;
   if (!reaches(high)) return infinite;
   while (high / low > 1 + 1e-4) {
@@ -150,12 +146,10 @@ double largest_step_of_body(const BodyLaw& body, double radius)
     const PairLaw pair{{&body.curve, mapping}, &body};
     return largest_step_of(Tabulated(pair, pair.measure(), Scale{}), r_eff, m_eff);
   };
-  return std::min(step(PairMapping::rigid_partner(e_star), radius, mass),
-                  step(PairMapping::deformable_partner(e_star, e_star), radius / 2, mass / 2));
+  return std::min(step(PairMapping::rigid_partner(e_star), radius, mass), step(PairMapping::deformable_partner(e_star, e_star), radius / 2, mass / 2));
 }
 
-Limits limits_of(const Law& law, const ChosenPair& c, const PairStatement& statement, double damage_number_now,
-                 double speed)
+Limits limits_of(const Law& law, const ChosenPair& c, const PairStatement& statement, double damage_number_now, double speed)
 {
   const Tabulated contact(c.law, c.law.measure(), Scale{});
   Limits l{};
@@ -178,10 +172,8 @@ Limits limits_of(const Law& law, const ChosenPair& c, const PairStatement& state
 
 Json limits_json(const Limits& l)
 {
-  return {{"yield_speed", json_number(l.onset)},  {"bound_speed", json_number(l.bound)},
-          {"axis_speed", json_number(l.axis)},    {"tenth_speed", json_number(l.tenth)},
-          {"depth_speed", json_number(l.depth)},  {"end_speed", json_number(l.end)},
-          {"largest_time_step", json_number(l.step)}};
+  return {{"yield_speed", json_number(l.onset)}, {"bound_speed", json_number(l.bound)}, {"axis_speed", json_number(l.axis)}, {"tenth_speed", json_number(l.tenth)},
+      {"depth_speed", json_number(l.depth)}, {"end_speed", json_number(l.end)}, {"largest_time_step", json_number(l.step)}};
 }
 
 /// e of the law, its error bound, and Thornton's e, at speeds around those of interest.

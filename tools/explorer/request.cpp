@@ -63,8 +63,7 @@ Request request_of(const Json& json)
     r.partner = Request::Partner::like;
     return r;
   }
-  if (!partner.is_object())
-    fail("request", "'partner' cannot be used", partner.dump(), "\"wall\", \"like\" or {material, radius}");
+  if (!partner.is_object()) fail("request", "'partner' cannot be used", partner.dump(), "\"wall\", \"like\" or {material, radius}");
   if (partner.contains("material") && !partner.at("material").is_null()) {
     r.one_material = false;
     r.second = material_of(partner.at("material"), "partner");

@@ -31,9 +31,7 @@ struct Request
   {
     SceneSizes sizes;
     sizes.thick_walls = partner == Partner::thick_wall;
-    if (partner == Partner::sphere)
-      sizes.radius_ratio =
-          std::clamp(std::max(radius / radius2, radius2 / radius), 1.0, largest_radius_ratio);
+    if (partner == Partner::sphere) sizes.radius_ratio = std::clamp(std::max(radius / radius2, radius2 / radius), 1.0, largest_radius_ratio);
     return sizes;
   }
   PairAsked asked() const
@@ -48,12 +46,10 @@ struct Request
   std::string key() const
   {
     const auto text = [](const LawMaterial& m) {
-      return fmt::format("{} {} {} {} {} {} ", m.name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress,
-                         m.hardening_modulus);
+      return fmt::format("{} {} {} {} {} {} ", m.name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress, m.hardening_modulus);
     };
     const SceneSizes s = sizes();
-    return fmt::format("{}{}{} {} {}", text(first), has_rigid_wall() ? std::string() : text(second),
-                       static_cast<int>(partner), s.radius_ratio, s.thick_walls);
+    return fmt::format("{}{}{} {} {}", text(first), has_rigid_wall() ? std::string() : text(second), static_cast<int>(partner), s.radius_ratio, s.thick_walls);
   }
 };
 

@@ -15,11 +15,9 @@ int main(int count, char** arguments)
   try {
     if (count != 3) fail("write_atlas", "needs ATLAS.h5 and OUTPUT");
     const Atlas all = read_atlas(arguments[1]);
-    const std::vector<double> numbers =
-        numbers_of(Atlas(all.grid(), all.nodes(), all.elastic_spheres(), all.checks()));
+    const std::vector<double> numbers = numbers_of(Atlas(all.grid(), all.nodes(), all.elastic_spheres(), all.checks()));
     std::ofstream file(arguments[2], std::ios::binary);
-    file.write(reinterpret_cast<const char*>(numbers.data()),
-               static_cast<std::streamsize>(numbers.size() * sizeof(double)));
+    file.write(reinterpret_cast<const char*>(numbers.data()), static_cast<std::streamsize>(numbers.size() * sizeof(double)));
     file.close();
     if (!file) fail(arguments[2], "cannot be written");
   } catch (const std::exception& failure) {

@@ -235,7 +235,7 @@ NAMED = [
     ("factor", "mpm_core/contact/unloading.hpp", "(11.0 - 2.0 * exponent) / 21.0", "1.01 * (11.0 - 2.0 * exponent) / 21.0"),
     ("sign", "mpm_core/solver/contact/node_plane.cpp", "* (least - v);", "* (least + v);"),
     ("factor", "mpm_core/contact/pair.hpp", "return {e_star_yielding, 1.0 + e_star_yielding", "return {e_star_yielding, 1.0 + 1.01 * e_star_yielding"),
-    ("swap", "tools/deck/shielding.cpp", "if (f.below == 0) low = std::max(low, f.speed);", "if (f.below == 0) low = std::min(low, f.speed);"),
+    ("swap", "tools/deck/speeds.cpp", "f.top = is_new ? top : std::max(f.top, top);", "f.top = is_new ? top : std::min(f.top, top);"),
 ]
 
 

@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "characterise/atlas_file.hpp"
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
+#include "characterise/atlas_file.hpp"
 #include "characterise/make_atlas.hpp"
 #include "command.hpp"
 #include "farm_options.hpp"
@@ -32,64 +32,42 @@ void make(AtlasCommand& r)
   std::optional<Atlas> known;
   if (!r.from.empty()) known = read_atlas(r.from), r.atlas.known = &*known;
   ProgressBar bar(rank() == 0);
-  const Atlas atlas =
-      make_atlas(r.atlas, *farm, [&](double done, const std::string& what) { bar.update(done, what); });
+  const Atlas atlas = make_atlas(r.atlas, *farm, [&](double done, const std::string& what) { bar.update(done, what); });
   bar.clear();
   if (rank() != 0) return;
   write_atlas(atlas, r.output);
-  fmt::print("wrote {}: {} materials; {} fresh impacts: 95 % within {:.2g} % of force and {:.2g} of e\n",
-             r.output, atlas.nodes().size(), atlas.checks().size(), 100 * atlas.claimed_force(),
-             atlas.claimed_restitution());
+  fmt::print("wrote {}: {} materials; {} fresh impacts: 95 % within {:.2g} % of force and {:.2g} of e\n", r.output, atlas.nodes().size(), atlas.checks().size(),
+      100 * atlas.claimed_force(), atlas.claimed_restitution());
   const MidplaneShapes& midplane = atlas.midplane();
-  fmt::print(
-      "midplane: {} materials; {} fresh presses: 95 % within {:.2g} % of force, {:.2g} of e, {:.2g} % of "
-      "the recovery\n",
-      midplane.nodes().size(), midplane.checks().size(), 100 * midplane.claimed_force(),
-      midplane.claimed_restitution(), 100 * midplane.claimed_recovery());
+  fmt::print("midplane: {} materials; {} fresh presses: 95 % within {:.2g} % of force, {:.2g} of e, {:.2g} % of the recovery\n", midplane.nodes().size(),
+      midplane.checks().size(), 100 * midplane.claimed_force(), midplane.claimed_restitution(), 100 * midplane.claimed_recovery());
   print_count(farm->count());
 }
 
 void define(Options& command)
 {
   const auto r = std::make_shared<AtlasCommand>();
-  command.add_option("-o,--output", r->output, "atlas, NAME.h5")->required();
-  const Option from =
-      command.add_option("--from", r->from,
-                         "an atlas whose materials stay as they are: only those that it lacks and the fresh "
-                         "impacts are run");
-  command
-      .add_flag(
-          "--impacts", r->atlas.impacts_anew,
-          "with --from: recompute the fast impacts (velocity effects) of its materials (an hour of CPU time)")
-      ->needs(from);
-  command
-      .add_flag("--midplane", r->atlas.midplane_alone,
-                "with --from: recompute the midplane presses alone (half an hour of CPU time)")
-      ->needs(from);
-  command
-      .add_option("--midplane-checks", r->atlas.midplane_checks,
-                  "fresh midplane presses, which measure their error")
-      ->check(whole_from_to(20, 100000))
-      ->capture_default_str();
-  command
-      .add_option("--checks", r->atlas.checks, "fresh impacts of random materials, which measure the atlas's error")
-      ->check(whole_from_to(20, 100000))
-      ->capture_default_str();
-  command.add_option("--seed", r->atlas.seed, "seed of the random materials")->capture_default_str();
+  command.add_option("-o,--output", r->output, "atlas, NAME.h5").required();
+  const Option from = command.add_option("--from", r->from, "an atlas whose materials stay as they are: only those that it lacks and the fresh impacts are run");
+  command.add_flag("--impacts", r->atlas.impacts_anew, "with --from: recompute the fast impacts (velocity effects) of its materials (an hour of CPU time)").needs(from);
+  command.add_flag("--midplane", r->atlas.midplane_alone, "with --from: recompute the midplane presses alone (half an hour of CPU time)").needs(from);
+  command.add_option("--midplane-checks", r->atlas.midplane_checks, "fresh midplane presses, which measure their error")
+      .check(whole_from_to(20, 100000))
+      .capture_default_str();
+  command.add_option("--checks", r->atlas.checks, "fresh impacts of random materials, which measure the atlas's error")
+      .check(whole_from_to(20, 100000))
+      .capture_default_str();
+  command.add_option("--seed", r->atlas.seed, "seed of the random materials").capture_default_str();
   r->farm.add_to(command);
   command.callback([r] { make(*r); });
 }
 
 }  // namespace of_atlas
 
-extern const Command atlas_command{
-    "atlas",
-    "Computes the atlas: dimensionless laws over E*/Y, Poisson's ratio, linear hardening, overlap and "
-    "inertia.\n"
-    "mpm table interpolates laws of homogeneous materials in it. One comes with the program; a new one "
-    "takes\n"
-    "about five CPU hours. Finished runs are cached (--cache): a build that was stopped goes on where it "
-    "was.\n"
+extern const Command atlas_command{"atlas",
+    "Computes the atlas: dimensionless laws over E*/Y, Poisson's ratio, linear hardening, overlap and inertia.\n"
+    "mpm table interpolates laws of homogeneous materials in it. One comes with the program; a new one takes\n"
+    "about five CPU hours. Finished runs are cached (--cache): a build that was stopped goes on where it was.\n"
     "Example: mpirun -np 8 mpm atlas -o atlas.h5, then GRANULAW_ATLAS=atlas.h5 mpm table ...",
     of_atlas::define, true};
 

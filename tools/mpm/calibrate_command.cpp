@@ -2,22 +2,21 @@
 #include <filesystem>
 #include <memory>
 
-#include "atlas_path.hpp"
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "calibrate/calibrate_by_runs.hpp"
 #include "calibrate/cycles.hpp"
 #include "calibrate/material_toml.hpp"
 #include "calibrate/sphere_laws.hpp"
-#include "characterise/build/slow_law.hpp"
 #include "calibration_options.hpp"
 #include "calibration_output.hpp"
+#include "characterise/build/slow_law.hpp"
 #include "command.hpp"
 #include "farm_options.hpp"
 #include "json_output.hpp"
-#include "option_checks.hpp"
 #include "material_file/plausible.hpp"
-#include "python_script.hpp"
+#include "option_checks.hpp"
+#include "own_files.hpp"
 #include "terminal.hpp"
 
 namespace granulaw {
@@ -39,28 +38,22 @@ std::string numbered(const std::string& path, int number, int count)
 {
   const std::filesystem::path p(path);
   const auto digits = std::to_string(count).size();
-  return (p.parent_path() /
-          fmt::format("{}-{:0{}}{}", p.stem().string(), number, digits, p.extension().string()))
-      .string();
+  return (p.parent_path() / fmt::format("{}-{:0{}}{}", p.stem().string(), number, digits, p.extension().string())).string();
 }
 
 void write_ensemble(const CalibrateRequest& r, const CalibrationProblem& problem, const Calibration& c)
 {
   const std::vector<CandidateMaterial> drawn = draw_materials(problem, c, r.ensemble, r.seed);
   for (int k = 1; k <= r.ensemble; ++k)
-    write_text_atomically(
-        numbered(r.output, k, r.ensemble),
-        material_toml(drawn[static_cast<std::size_t>(k) - 1],
-                      fmt::format("# draw {} of {} from the posterior: mpm calibrate --seed {}\n", k,
-                                  r.ensemble, r.seed)));
+    write_text_atomically(numbered(r.output, k, r.ensemble),
+        material_toml(drawn[static_cast<std::size_t>(k) - 1], fmt::format("# draw {} of {} from the posterior: mpm calibrate --seed {}\n", k, r.ensemble, r.seed)));
 }
 
 void check_outputs(const CalibrateRequest& r)
 {
   check_output("-o", r.output, ".toml");
   check_output("--plot", r.plot, ".png, .pdf, .svg");
-  if (r.ensemble > 0 && r.output.empty())
-    fail("--ensemble", "needs -o NAME.toml: its files are NAME-1.toml, ...");
+  if (r.ensemble > 0 && r.output.empty()) fail("--ensemble", "needs -o NAME.toml: its files are NAME-1.toml, ...");
   if (!r.output.empty() && !r.options.density) fail("--density", "is missing: a materials file holds it");
 }
 
@@ -70,35 +63,29 @@ Calibration fit_by_runs(const CalibrateRequest& r, CalibrationProblem& problem, 
   const std::unique_ptr<Farm> farm = r.farm.farm();
   ProgressBar bar;
   const Atlas& atlas = problem.laws().atlas();
-  const LawByRuns law_by_runs = [&](const std::string& name, const Material& material, double depth,
-                                    const Progress& progress) {
+  const LawByRuns law_by_runs = [&](const std::string& name, const Material& material, double depth, const Progress& progress) {
     return slow_law_by_runs(name, material, depth, atlas, *farm, progress);
   };
-  CalibrationByRuns fit = calibrate_by_runs(
-      problem, law_by_runs, [&](double done, const std::string& what) { bar.update(done, what); });
+  CalibrationByRuns fit = calibrate_by_runs(problem, law_by_runs, [&](double done, const std::string& what) { bar.update(done, what); });
   bar.clear();
   const FarmCount& count = farm->count();
-  runs = {{"laws", fit.laws},     {"runs", count.made},           {"runs_from_cache", count.from_cache},
-          {"cpu_s", count.cpu_s}, {"miss_force", fit.miss_force}, {"miss_restitution", fit.miss_restitution}};
+  runs = {{"laws", fit.laws}, {"runs", count.made}, {"runs_from_cache", count.from_cache}, {"cpu_s", count.cpu_s}, {"miss_force", fit.miss_force},
+      {"miss_restitution", fit.miss_restitution}};
   if (!r.json) {
-    fmt::print(
-        "{} laws by the solver; the last is within {:.2g} % of F and {:.2g} of e of what the fit went by; ",
-        fit.laws, 100 * fit.miss_force, fit.miss_restitution);
+    fmt::print("{} laws by the solver; the last is within {:.2g} % of F and {:.2g} of e of what the fit went by; ", fit.laws, 100 * fit.miss_force, fit.miss_restitution);
     print_count(count);
   }
   return std::move(fit.calibration);
 }
 
 /// Message in place of a material where there is none.
-void state_no_values(const CalibrateRequest& r, const CalibrationProblem& problem, const Calibration& result,
-                     const nlohmann::ordered_json& json)
+void state_no_values(const CalibrateRequest& r, const CalibrationProblem& problem, const Calibration& result, const nlohmann::ordered_json& json)
 {
   if (r.json)
     print_json(json);
   else
     print_calibration(problem, result);
-  const std::string why =
-      result.bound.empty() ? "no parameters follow the data" : "the fit lies at an end of the method's range, " + result.bound;
+  const std::string why = result.bound.empty() ? "no parameters follow the data" : "the fit lies at an end of the method's range, " + result.bound;
   if (!r.output.empty()) fail(r.output, "is not written: " + why);
   if (!r.plot.empty()) fail(r.plot, "is not drawn: " + why);
 }
@@ -113,17 +100,13 @@ void run(const CalibrateRequest& r)
   set_cycles_aside(*atlas, request);
   CalibrationProblem problem(*atlas, request);
   nlohmann::ordered_json runs;
-  const Calibration result =
-      request.known.hardens_linearly() ? calibrate(problem) : fit_by_runs(r, problem, runs);
+  const Calibration result = request.known.hardens_linearly() ? calibrate(problem) : fit_by_runs(r, problem, runs);
   nlohmann::ordered_json json = calibration_json(problem, result);
   if (!runs.empty()) json["runs"] = runs;
   if (!result.has_values()) return state_no_values(r, problem, result, json);
   for (const FittedParameter& p : result.parameters)
-    if (p.identifiable() && p.parameter <= Parameter::yield_stress)
-      check_plausible("the fit", name_of(p.parameter), name_of(p.parameter), p.profile.value);
-  if (!r.output.empty())
-    write_text_atomically(r.output, material_toml(result.material, "# " + command_line + "\n" +
-                                                                       interval_comments(problem, result)));
+    if (p.identifiable() && p.parameter <= Parameter::yield_stress) check_plausible("the fit", name_of(p.parameter), name_of(p.parameter), p.profile.value);
+  if (!r.output.empty()) write_text_atomically(r.output, material_toml(result.material, "# " + command_line + "\n" + interval_comments(problem, result)));
   if (r.ensemble > 0) write_ensemble(r, problem, result);
   if (!r.plot.empty()) draw_by_python("mpm calibrate", "plot_fit.py", {r.plot}, json.dump(), r.plot);
   if (r.json)
@@ -139,28 +122,20 @@ void define(Options& command)
   r->farm.add_to(command);
   command.add_option("-o,--output", r->output, "materials file, NAME.toml, that mpm table takes");
   command.add_option("--plot", r->plot, "picture of data, fit and its 95 % band: NAME.png, .pdf or .svg");
-  command
-      .add_option(
-          "--ensemble", r->ensemble,
-          "so many materials drawn from what the data leave open: NAME-1.toml, ... beside -o NAME.toml")
-      ->check(whole_from_to(1, 10000));
-  command.add_option("--seed", r->seed, "of the ensemble")->capture_default_str();
-  command.add_flag(
-      "--json", r->json,
-      "print one JSON object instead of the summary: parameters.NAME.value, low68, high68, low95, "
-      "high95 (Pa), identifiable, told; correlation; chi2, degrees_of_freedom, p_value; "
-      "interval_scale: factor on chi^2 in the intervals; verdict; misfits; measurements with their fit");
+  command.add_option("--ensemble", r->ensemble, "so many materials drawn from what the data leave open: NAME-1.toml, ... beside -o NAME.toml")
+      .check(whole_from_to(1, 10000));
+  command.add_option("--seed", r->seed, "of the ensemble").capture_default_str();
+  command.add_flag("--json", r->json,
+      "print one JSON object instead of the summary: parameters.NAME.value, low68, high68, low95, high95 (Pa), identifiable, told; correlation; chi2, degrees_of_freedom, p_value; interval_scale: factor on chi^2 in the intervals; verdict; misfits; measurements with their fit");
   command.callback([r] { run(*r); });
 }
 
 }  // namespace of_calibrate
 
-extern const Command calibrate_command{
-    "calibrate",
+extern const Command calibrate_command{"calibrate",
     "Fits Young's modulus, yield stress and hardening to measurements, with intervals. It says which\n"
     "parameters the data do not determine (docs/guide/calibrate.md).\n"
-    "Example: mpm calibrate drops.csv --radius 1e-3 --density 1540 --poisson-ratio 0.25 --youngs-modulus "
-    "3.2e9\n"
+    "Example: mpm calibrate drops.csv --radius 1e-3 --density 1540 --poisson-ratio 0.25 --youngs-modulus 3.2e9\n"
     "         --fit yield_stress -o material.toml --plot fit.png",
     of_calibrate::define};
 

@@ -28,7 +28,7 @@ std::string without_blanks(const std::string& word)
 
 double number_or_nan(const std::string& word)
 {
-  return number_in(without_blanks(word));
+  return number_in(without_blanks(word)).value_or(std::nan(""));
 }
 
 std::vector<std::string> words_of_kinds()
@@ -48,9 +48,7 @@ std::string data_help()
     if (kind->word) text += fmt::format(" (--kind {})", kind->word);
     text += fmt::format(": {}", kind->help);
   }
-  return text +
-         ".\nEach with a further column NAME_sd where the standard deviation is known "
-         "(docs/guide/calibrate.md)";
+  return text + ".\nEach with a further column NAME_sd where the standard deviation is known (docs/guide/calibrate.md)";
 }
 
 /// "youngs_modulus, ...; with --hardening voce: saturation_stress, strain; ..."
@@ -96,79 +94,52 @@ Range parse_range(const std::string& word, const std::string& option, const std:
   const std::string found = fmt::format("'{}'", cut(without_blanks(word)));
   if (dots == std::string::npos) fail(option, "cannot be understood", found, form);
   const Range r{number_or_nan(word.substr(0, dots)), number_or_nan(word.substr(dots + 2))};
-  if (!(r.low > 0 && r.high > 0 && std::isfinite(r.low) && std::isfinite(r.high)))
-    fail(option, "cannot be understood", found, form);
+  if (!(r.low > 0 && r.high > 0 && std::isfinite(r.low) && std::isfinite(r.high))) fail(option, "cannot be understood", found, form);
   if (!(r.high > r.low))
-    fail(option, r.high < r.low ? "the range runs downwards" : "the range is empty", found,
-         r.high < r.low ? fmt::format("'{:g}..{:g}'", r.high, r.low) : form);
+    fail(option, r.high < r.low ? "the range runs downwards" : "the range is empty", found, r.high < r.low ? fmt::format("'{:g}..{:g}'", r.high, r.low) : form);
   return r;
 }
 
 void CalibrationOptions::add_to(Options& command, bool needs_data)
 {
   Option files = command.add_option("DATA", data, data_help());
-  if (needs_data) files->required();
-  command.add_option("--fit", fit, fit_help())->required()->list();
-  command
-      .add_option("--hardening", hardening,
-                  "law: linear, from the atlas; with any other some laws are made by the solver")
-      ->among(fitted_hardening_laws())
-      ->capture_default_str();
+  if (needs_data) files.required();
+  command.add_option("--fit", fit, fit_help()).required().list();
+  command.add_option("--hardening", hardening, "law: linear, from the atlas; with any other some laws are made by the solver")
+      .among(fitted_hardening_laws())
+      .capture_default_str();
   command.add_option("--known", known, "NAME=VALUE, SI, of a parameter of --hardening that is not fitted");
-  command
-      .add_option("--radius", radius,
-                  "of the sphere, m; inf: a thick flat specimen under a spherical indenter")
-      ->required()
-      ->check(above_zero_to(std::numeric_limits<double>::infinity()));
-  command.add_option("--density", density, "kg/m^3; force curves do without")->check(above_zero());
-  command.add_option("--poisson-ratio", poisson_ratio)->check(from_to(0, 0.49))->capture_default_str();
-  command.add_option("--youngs-modulus", youngs_modulus, "Pa, where it is known and not fitted")
-      ->check(above_zero());
-  command.add_option("--yield-stress", yield_stress, "Pa, where it is known and not fitted")
-      ->check(above_zero());
-  command.add_option("--hardening-modulus", hardening_modulus,
-                     "Pa, where it is known and not fitted (default 0: perfectly plastic)");
-  command.add_option("--kind", kind, "of force curves, whose columns are the same: see DATA")
-      ->among(words_of_kinds())
-      ->capture_default_str();
-  command.add_option("--indenter-radius", indenter_radius, "m, with --kind sphere")
-      ->check(above_zero_to(1e3));
+  command.add_option("--radius", radius, "of the sphere, m; inf: a thick flat specimen under a spherical indenter")
+      .required()
+      .check(above_zero_to(std::numeric_limits<double>::infinity()));
+  command.add_option("--density", density, "kg/m^3; force curves do without").check(above_zero());
+  command.add_option("--poisson-ratio", poisson_ratio).check(from_to(0, 0.49)).capture_default_str();
+  command.add_option("--youngs-modulus", youngs_modulus, "Pa, where it is known and not fitted").check(above_zero());
+  command.add_option("--yield-stress", yield_stress, "Pa, where it is known and not fitted").check(above_zero());
+  command.add_option("--hardening-modulus", hardening_modulus, "Pa, where it is known and not fitted (default 0: perfectly plastic)");
+  command.add_option("--kind", kind, "of force curves, whose columns are the same: see DATA").among(words_of_kinds()).capture_default_str();
+  command.add_option("--indenter-radius", indenter_radius, "m, with --kind sphere").check(above_zero_to(1e3));
+  command.add_option("--partner", partner, "of impacts. wall: rigid; equal: a sphere of the same material and size, the speed is that of approach (older word: like)")
+      .among({"wall", "equal", "like"})
+      .capture_default_str();
+  Option materials_file = command.add_option("--materials-file,--materials", materials, "TOML file that holds the material of the wall, the indenter or the ball");
+  command.add_option("--indenter", indenter, "name of the indenter's material (default: rigid)").needs(materials_file);
+  command.add_option("--wall", wall, "restitution: name of the material of a thick deformable wall (default: rigid)").needs(materials_file);
   command
       .add_option(
-          "--partner", partner,
-          "of impacts. wall: rigid; equal: a sphere of the same material and size, the speed is that of "
-          "approach (older word: like)")
-      ->among({"wall", "equal", "like"})
-      ->capture_default_str();
-  Option materials_file = command.add_option(
-      "--materials-file,--materials", materials, "TOML file that holds the material of the wall, the indenter or the ball");
-  command.add_option("--indenter", indenter, "name of the indenter's material (default: rigid)")
-      ->needs(materials_file);
-  command
-      .add_option("--wall", wall,
-                  "restitution: name of the material of a thick deformable wall (default: rigid)")
-      ->needs(materials_file);
-  command
-      .add_option("--ball", ball,
-                  "restitution: name of the known material of the ball that drops. --radius is the "
-                  "ball's; all else, and the fit, belong to the thick specimen")
-      ->needs(materials_file);
-  command.add_option(
-      "--offset", offset,
-      "m, displacement at first touch, where it is known (default: it is fitted, for each curve)");
+          "--ball", ball, "restitution: name of the known material of the ball that drops. --radius is the ball's; all else, and the fit, belong to the thick specimen")
+      .needs(materials_file);
+  command.add_option("--offset", offset, "m, displacement at first touch, where it is known (default: it is fitted, for each curve)");
   command.add_flag("--compliance", compliance, "fit the machine's compliance, m/N, for each curve");
   command
       .add_option(
-          "--relative-sd", relative_sd,
-          "standard deviation of values whose file states none, as a fraction of the value; a curve's is "
-          "taken from its own scatter")
-      ->check(above_zero_to(1))
-      ->capture_default_str();
-  command.add_option("--prior", priors,
-                     "'NAME = LOW..HIGH': known before, 95 % lie between; NAME as in --fit" + ratio_names());
+          "--relative-sd", relative_sd, "standard deviation of values whose file states none, as a fraction of the value; a curve's is taken from its own scatter")
+      .check(above_zero_to(1))
+      .capture_default_str();
+  command.add_option("--prior", priors, "'NAME = LOW..HIGH': known before, 95 % lie between; NAME as in --fit" + ratio_names());
   command.add_option("--bounds", bounds, "'NAME = LOW..HIGH': never outside");
   command.add_flag("--no-robust", plain, "outliers count by their square, as all other values");
-  command.add_option("--name", name, "of the material in what is written")->capture_default_str();
+  command.add_option("--name", name, "of the material in what is written").capture_default_str();
 }
 
 namespace {
@@ -179,9 +150,7 @@ LawMaterial material_of_other(const std::string& path, const std::string& name, 
   const MaterialsFile file = read_materials(path);
   const Material& m = file.material(name);
   if (!m.hardening.name.empty() || m.rate_dependent() || !m.yield_surface.name.empty())
-    fail(option,
-         "this material must yield by von Mises, harden linearly or not at all, and without a rate law",
-         name);
+    fail(option, "this material must yield by von Mises, harden linearly or not at all, and without a rate law", name);
   return law_material(name, m);
 }
 
@@ -202,16 +171,14 @@ void CalibrationOptions::set_hardening(CalibrationRequest& r) const
     require(value > 0, "--known", fmt::format("'{}'", cut(word)), "NAME=VALUE, SI, over 0");
     const Parameter p = parameter_named(without_blanks(word.substr(0, equals)), "--known");
     const std::vector<Parameter> own = parameters_of(hardening);
-    if (std::find(own.begin(), own.end(), p) == own.end())
-      fail("--known", fmt::format("'{}' is no parameter of the hardening law '{}'", name_of(p), hardening));
+    if (std::find(own.begin(), own.end(), p) == own.end()) fail("--known", fmt::format("'{}' is no parameter of the hardening law '{}'", name_of(p), hardening));
     set_value(r.known, p, value);
   }
 }
 
 const Kind& CalibrationOptions::curves() const
 {
-  return **std::find_if(kinds().begin(), kinds().end(),
-                        [&](const Kind* k) { return k->word && k->word == kind; });
+  return **std::find_if(kinds().begin(), kinds().end(), [&](const Kind* k) { return k->word && k->word == kind; });
 }
 
 Measurement CalibrationOptions::form(const Kind& of, const std::string& source) const
@@ -229,13 +196,11 @@ Measurement CalibrationOptions::form(const Kind& of, const std::string& source) 
     if (!indenter.empty()) m.counterpart = material_of_other(materials, indenter, "--indenter");
   }
   if (of.needs_density && !(wall.empty() && ball.empty())) {
-    if (!wall.empty() && !ball.empty())
-      fail("--ball", "is given beside --wall: the one or the other is known");
+    if (!wall.empty() && !ball.empty()) fail("--ball", "is given beside --wall: the one or the other is known");
     m.counterpart_is_ball = !ball.empty();
     const char* option = m.counterpart_is_ball ? "--ball" : "--wall";
     m.counterpart = material_of_other(materials, m.counterpart_is_ball ? ball : wall, option);
-    if (of.counterpart != Kind::Counterpart::wall || m.partner != ImpactPartner::wall)
-      fail(source, fmt::format("only restitution of drops goes with {}", option));
+    if (of.counterpart != Kind::Counterpart::wall || m.partner != ImpactPartner::wall) fail(source, fmt::format("only restitution of drops goes with {}", option));
   }
   return m;
 }
@@ -256,9 +221,7 @@ void CalibrationOptions::set_ranges(CalibrationRequest& r) const
 {
   for (const std::string& word : priors) {
     const NamedRange prior = parse_named_range(word, "--prior");
-    const auto with_ratio = std::find_if(kinds().begin(), kinds().end(), [&](const Kind* k) {
-      return k->has_ratio_to_yield && prior.name == ratio_name(*k);
-    });
+    const auto with_ratio = std::find_if(kinds().begin(), kinds().end(), [&](const Kind* k) { return k->has_ratio_to_yield && prior.name == ratio_name(*k); });
     if (with_ratio == kinds().end()) {
       r.priors.push_back({parameter_named(prior.name, "--prior"), prior.range});
       continue;
@@ -276,16 +239,13 @@ void CalibrationOptions::check_plausible_numbers(const CalibrationRequest& r) co
 {
   check_plausible("--radius", "radius", "radius", *radius);
   if (density) check_plausible("--density", "density", "density", *density);
-  if (youngs_modulus)
-    check_plausible("--youngs-modulus", "youngs_modulus", "youngs_modulus", *youngs_modulus);
+  if (youngs_modulus) check_plausible("--youngs-modulus", "youngs_modulus", "youngs_modulus", *youngs_modulus);
   if (yield_stress) check_plausible("--yield-stress", "yield_stress", "yield_stress", *yield_stress);
   // one line for a file: of its fastest impact, or its softest value
   for (const Measurement& m : r.measurements) {
     const auto check = [&](const Column& column, double Datum::*value, double sign) {
       if (!is_usual_quantity(column.quantity)) return;
-      const Datum& d = *std::max_element(m.data.begin(), m.data.end(), [=](const Datum& a, const Datum& b) {
-        return sign * a.*value < sign * b.*value;
-      });
+      const Datum& d = *std::max_element(m.data.begin(), m.data.end(), [=](const Datum& a, const Datum& b) { return sign * a.*value < sign * b.*value; });
       check_plausible(fmt::format("{}:{}", m.source, d.line), column.quantity, column.name(), d.*value);
     };
     check(m.kind->x, &Datum::x, 1), check(m.kind->y, &Datum::y, -1);
@@ -305,16 +265,12 @@ CalibrationRequest CalibrationOptions::request() const
   r.known.youngs_modulus = youngs_modulus.value_or(0);
   r.known.yield_stress = yield_stress.value_or(0);
   r.known.hardening_modulus = hardening_modulus.value_or(0);
-  require(r.known.hardening_modulus >= 0, "--hardening-modulus",
-          fmt::format("{:g}", r.known.hardening_modulus), "0 or more");
+  require(r.known.hardening_modulus >= 0, "--hardening-modulus", fmt::format("{:g}", r.known.hardening_modulus), "0 or more");
   set_hardening(r);
   for (const Parameter p : r.fit)
-    if (value_of(r.known, p) > 0)
-      fail("--fit", fmt::format("'{}' is given, too: either it is known or it is fitted", name_of(p)));
-  for (const auto& [parameter, option] : {std::pair{Parameter::youngs_modulus, "--youngs-modulus"},
-                                          {Parameter::yield_stress, "--yield-stress"}})
-    if (std::find(r.fit.begin(), r.fit.end(), parameter) == r.fit.end() &&
-        !(value_of(r.known, parameter) > 0))
+    if (value_of(r.known, p) > 0) fail("--fit", fmt::format("'{}' is given, too: either it is known or it is fitted", name_of(p)));
+  for (const auto& [parameter, option] : {std::pair{Parameter::youngs_modulus, "--youngs-modulus"}, {Parameter::yield_stress, "--yield-stress"}})
+    if (std::find(r.fit.begin(), r.fit.end(), parameter) == r.fit.end() && !(value_of(r.known, parameter) > 0))
       fail(option, fmt::format("is missing: give it, or add {} to --fit", name_of(parameter)));
   for (const std::string& path : data) r.measurements.push_back(measurement(path));
   set_ranges(r);

@@ -13,8 +13,7 @@ namespace granulaw {
 struct CalibrationOptions
 {
   std::vector<std::string> data, fit, priors, bounds, known;
-  std::optional<double> radius, density, youngs_modulus, yield_stress, hardening_modulus, offset,
-      indenter_radius;
+  std::optional<double> radius, density, youngs_modulus, yield_stress, hardening_modulus, offset, indenter_radius;
   double poisson_ratio = 0.3, relative_sd = 0.01;
   std::string kind = "platens", partner = "wall", name = "material", hardening = "linear";
   std::string materials;             ///< a file that holds the materials of wall, indenter and ball
@@ -45,7 +44,6 @@ struct NamedRange
 };
 NamedRange parse_named_range(const std::string& word, const std::string& option);
 /// "A..B", both over 0, A below B. `form`: what is allowed, for the sentence.
-Range parse_range(const std::string& word, const std::string& option,
-                  const std::string& form = "'LOW..HIGH', SI, both over 0");
+Range parse_range(const std::string& word, const std::string& option, const std::string& form = "'LOW..HIGH', SI, both over 0");
 
 }  // namespace granulaw

@@ -7,6 +7,18 @@
 
 namespace granulaw {
 
+/// A relative error in per cent.
+inline std::string percent(double error)
+{
+  return fmt::format("{:.2g} %", 100 * error);
+}
+
+/// Two relative errors, for a sentence.
+inline std::string errors_text(double force, double restitution)
+{
+  return fmt::format("force within {}, e within {}", percent(force), percent(restitution));
+}
+
 /// The first keys of --json, SI, which mpm impact and press (Collision = RunSummary) and mpm law (Replay)
 /// share.
 template <class Collision>
@@ -24,8 +36,7 @@ nlohmann::ordered_json collision_json(const Collision& c)
 }
 
 /// The keys that follow them: what it cost, and the relative error of F_max and e (0: none is known, null).
-inline void put_effort(nlohmann::ordered_json& out, long points, long steps, double cpu_s,
-                       double point_updates_per_s, double error_estimate)
+inline void put_effort(nlohmann::ordered_json& out, long points, long steps, double cpu_s, double point_updates_per_s, double error_estimate)
 {
   out["points"] = points;
   out["steps"] = steps;

@@ -8,14 +8,12 @@
 #include <memory>
 #include <set>
 
-#include "atlas_path.hpp"
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "characterise/file/make_law_file.hpp"
 #include "command.hpp"
 #include "deck/convert/folder.hpp"
 #include "deck/convert/page.hpp"
-#include "deck/convert/time_steps.hpp"
 #include "deck/densities.hpp"
 #include "deck/launcher.hpp"
 #include "deck_options.hpp"
@@ -25,6 +23,7 @@
 #include "law/pair_names.hpp"
 #include "law/range.hpp"
 #include "material_file/materials_file.hpp"
+#include "own_files.hpp"
 
 namespace granulaw {
 
@@ -55,8 +54,7 @@ PlannedDeck plan_with_answers(const deck::Scene& scene, ConvertRequest& r, std::
       if (!(by_deck.value > 0) || answer > 0) answered = false;
       if (!answered) break;
       answer = by_deck.value;
-      accepted.push_back(fmt::format("{}: {} {:.3g}, {}", q.what, q.option.substr(0, q.option.find(' ')), by_deck.value,
-                                     by_deck.reason));
+      accepted.push_back(fmt::format("{}: {} {:.3g}, {}", q.what, q.option.substr(0, q.option.find(' ')), by_deck.value, by_deck.reason));
     }
     if (!answered) throw deck::Unanswered(deck::question_sentence(scene, planned.plan, open));
   }
@@ -94,8 +92,7 @@ deck::Destination choose_folder(const ConvertRequest& r, const deck::Scene& scen
   fs::path folder = r.folder.empty() ? fs::path(fs::path(r.deck).filename().string() + ".mpm") : fs::path(r.folder);
   std::error_code ignored;
   const fs::path of_deck = fs::path(r.deck).parent_path().empty() ? fs::path(".") : fs::path(r.deck).parent_path();
-  if (fs::equivalent(folder, of_deck, ignored))
-    fail("-o", "this is the deck's own folder: the original would be lost", folder.string());
+  if (fs::equivalent(folder, of_deck, ignored)) fail("-o", "this is the deck's own folder: the original would be lost", folder.string());
   if (fs::exists(folder) && !fs::is_directory(folder)) fail("-o", "is no folder", folder.string());
   return deck::open_destination(scene, folder);
 }
@@ -122,8 +119,7 @@ void compare_runs(deck::Converted& c, const deck::Scene& now)
     c.result.left.push_back(fmt::format("the insertions bring in {:.0f} particles, {:.0f} in the original", brings, brought));
   const std::vector<deck::Run>&before = c.planned.scene.runs, &after = now.runs;
   if (before.size() != after.size()) {
-    if (!lasts_as_long(now, c.planned.scene))
-      c.result.left.push_back(fmt::format("the converted deck has {} runs, the original {}", after.size(), before.size()));
+    if (!lasts_as_long(now, c.planned.scene)) c.result.left.push_back(fmt::format("the converted deck has {} runs, the original {}", after.size(), before.size()));
     return;
   }
   if (!lasts_as_long(now, c.planned.scene))
@@ -137,53 +133,25 @@ void compare_runs(deck::Converted& c, const deck::Scene& now)
   }
 }
 
-/// The deck under its new time step alone, as LIGGGHTS reads it; nothing: no variable follows the step.
-std::optional<deck::Scene> read_probe(const deck::Converted& c)
-{
-  const deck::Scene& scene = c.planned.scene;
-  const auto files = deck::probe_deck(scene, c.conversion);
-  if (files.empty()) return {};
-  deck::write_files(scene, c.folder, files);
-  deck::Scene probe = deck::read_scene(c.deck.string(), scene.presets);
-  // its files stand under other names only where the deck is not in the folder from which LIGGGHTS reads it
-  for (deck::DeckCommand& command : probe.commands)
-    for (const auto& [path, text] : files)
-      if (deck::name_in_folder(scene, path) == command.file) {
-        command.file = path;
-        break;
-      }
-  return probe;
-}
-
-/// The deck by the choices made, with its includes, as LIGGGHTS reads it.
-deck::Scene write_deck(deck::Converted& c, const std::optional<deck::Scene>& probe)
-{
-  const deck::Scene& scene = c.planned.scene;
-  c.result = deck::convert(scene, c.conversion, probe ? &*probe : nullptr);
-  deck::write_files(scene, c.folder, c.result.files);
-  return deck::read_scene(c.deck.string(), scene.presets);
-}
-
-/// The same where variables follow the time step; nothing: more than counts of steps would follow, the runs would last
-/// another time, or LIGGGHTS refuses the deck.
-std::optional<deck::Scene> write_following(deck::Converted& c)
-{
-  c.conversion.variables_follow = true;
-  try {
-    const auto probe = read_probe(c);
-    if (probe && !deck::only_counts_follow(c.planned.scene, *probe)) return {};
-    deck::Scene now = write_deck(c, probe);
-    if (!probe || lasts_as_long(now, c.planned.scene)) return now;
-  } catch (const Error&) {
-  }
-  return {};
-}
-
+/// The deck by the choices made, with its includes, as LIGGGHTS reads it. Variables follow the time step, unless more than counts of steps
+/// would follow, the runs would last another time, or LIGGGHTS refuses the deck.
 deck::Scene write_deck(deck::Converted& c)
 {
-  if (auto now = write_following(c)) return *std::move(now);
-  c.conversion.variables_follow = false;
-  return write_deck(c, read_probe(c));
+  const deck::Scene& scene = c.planned.scene;
+  const auto write = [&](bool follow) -> std::optional<deck::Scene> {
+    c.conversion.variables_follow = follow;
+    c.result = deck::convert(scene, c.conversion);
+    if (follow && c.result.more_follows) return {};
+    deck::write_files(scene, c.folder, c.result.files);
+    return deck::read_scene(c.deck.string(), scene.presets, false);
+  };
+  if (c.conversion.step_factor == 1) return *write(false);
+  try {
+    auto now = write(true);
+    if (now && (!c.result.followed || lasts_as_long(*now, scene))) return *std::move(now);
+  } catch (const Error&) {
+  }
+  return *write(false);
 }
 
 deck::Converted convert(ConvertRequest& r)
@@ -246,8 +214,8 @@ ordered_json to_json(const deck::Converted& c, const ConvertRequest& r)
   root["not_converted"] = c.result.left;
   root["not_followed"] = c.planned.scene.notes;
   if (c.checked)
-    root["check"] = {{"original", state_json(c.checked->before)}, {"converted", state_json(c.checked->after)},
-                     {"files_missing", c.checked->files_missing}, {"files_new", c.checked->files_new}};
+    root["check"] = {{"original", state_json(c.checked->before)}, {"converted", state_json(c.checked->after)}, {"files_missing", c.checked->files_missing},
+        {"files_new", c.checked->files_new}};
   return root;
 }
 
@@ -280,26 +248,26 @@ void carry_out(ConvertRequest& r)
 void define(Options& command)
 {
   const auto r = std::make_shared<ConvertRequest>();
-  command.add_option("DECK", r->deck, "LIGGGHTS input script, of any normal model")->required();
+  command.add_option("DECK", r->deck, "LIGGGHTS input script, of any normal model").required();
   r->options.add_to(command, true);
-  command.get_option("--materials-file")->required();
-  command.get_option("--materials")->description(
-      "NAME,NAME,... or NAME NAME ...: one for each atom type. A name that the materials file lacks stands for a rigid wall's\n"
-      "material (default: the deck's own, or the only one of the file)");
+  command.get_option("--materials-file").required();
+  command.get_option("--materials")
+      .description(
+          "NAME,NAME,... or NAME NAME ...: one for each atom type. A name that the materials file lacks stands for a rigid wall's\n"
+          "material (default: the deck's own, or the only one of the file)");
   command.add_option("-o,--output", r->folder, "folder to write (default: DECK.mpm, here)");
   command.add_flag("--no-stretch", r->no_stretch, "real contacts: the time step follows from them");
   command.add_flag("--accept-defaults", r->accept_defaults, "answer what the deck does not say by the defaults from the deck");
   command.add_flag("--check", r->check,
-                   "run 300 steps of the original and as much time of the converted deck, without writing their files, and compare particles,\n"
-                   "kinetic energy and files. Exit code 1: only the converted deck stops");
+      "run 300 steps of the original and as much time of the converted deck, without writing their files, and compare particles,\n"
+      "kinetic energy and files. Exit code 1: only the converted deck stops");
   command.add_flag("--json", r->json, "as JSON");
   command.callback([r] { carry_out(*r); });
 }
 
 }  // namespace
 
-extern const Command convert_command{
-    "convert",
+extern const Command convert_command{"convert",
     "Makes a deck of model mpm, with its law, from a LIGGGHTS deck of another normal model (hertz, hooke,\n"
     "hooke/stiffness, hooke/hysteresis, ...). The original is not touched. It writes FOLDER/DECK with its\n"
     "includes and the files it reads, FOLDER/law.h5, and FOLDER/conversion.md. The last has each changed line with\n"

@@ -5,14 +5,15 @@
 #include <cmath>
 #include <fstream>
 
-#include "atlas_path.hpp"
 #include "base/error.hpp"
 #include "characterise/body/law_material.hpp"
+#include "deck/digits.hpp"
 #include "deck/laws_at_hand.hpp"
 #include "deck/material_names.hpp"
 #include "law/law_file.hpp"
 #include "material_file/materials_file.hpp"
 #include "option_checks.hpp"
+#include "own_files.hpp"
 
 namespace granulaw {
 
@@ -25,15 +26,13 @@ std::string left_out(const Material& m)
 {
   std::string what;
   if (!m.hardening.name.empty()) what = fmt::format("its hardening '{}'", m.hardening.name);
-  if (!m.rate.name.empty())
-    what += fmt::format("{}its rate dependence '{}'", what.empty() ? "" : " and ", m.rate.name);
+  if (!m.rate.name.empty()) what += fmt::format("{}its rate dependence '{}'", what.empty() ? "" : " and ", m.rate.name);
   return what;
 }
 
 /// Materials, and particles as spheres of the material of their body. Adds to the notes what a plan leaves
 /// out.
-KnownMaterials materials_of(const MaterialsFile& file, const std::vector<std::string>& names,
-                            std::vector<std::string>& notes)
+KnownMaterials materials_of(const MaterialsFile& file, const std::vector<std::string>& names, std::vector<std::string>& notes)
 {
   KnownMaterials known;
   for (const auto& [name, particle] : file.particles) known[name] = law_material(name, particle.materials[0]);
@@ -41,13 +40,11 @@ KnownMaterials materials_of(const MaterialsFile& file, const std::vector<std::st
   for (const std::string& name : names) {
     const bool is_particle = file.means_particle(name);
     if (is_particle && !file.particle(name).is_homogeneous_sphere())
-      notes.push_back(fmt::format("{}: '{}' is planned as a homogeneous sphere of its body's material",
-                                  file.source, name));
+      notes.push_back(fmt::format("{}: '{}' is planned as a homogeneous sphere of its body's material", file.source, name));
     if (!known.contains(name)) continue;
     const Material& m = is_particle ? file.particle(name).materials[0] : file.material(name);
     if (const std::string what = left_out(m); !what.empty())
-      notes.push_back(
-          fmt::format("{}: '{}' is planned without {}: overlaps are upper bounds", file.source, name, what));
+      notes.push_back(fmt::format("{}: '{}' is planned without {}: overlaps are upper bounds", file.source, name, what));
   }
   return known;
 }
@@ -56,15 +53,13 @@ KnownMaterials materials_of(const MaterialsFile& file, const std::vector<std::st
 deck::NamedMaterials known_materials(const DeckOptions& o, const Law* law, deck::Scene& scene)
 {
   const std::vector<std::string>& names = o.materials.empty() ? scene.material_names : o.materials;
-  if (!o.materials_file.empty())
-    return {o.materials_file, materials_of(read_materials(o.materials_file), names, scene.notes)};
+  if (!o.materials_file.empty()) return {o.materials_file, materials_of(read_materials(o.materials_file), names, scene.notes)};
   if (law) {
     deck::NamedMaterials of_law{scene.law_file, {}};
     for (const auto& [name, body] : law->bodies) of_law.known[name] = body.material;
     return of_law;
   }
-  if (!o.materials.empty())
-    fail("--materials", "names need the file that they are in", "", "--materials-file FILE");
+  if (!o.materials.empty()) fail("--materials", "names need the file that they are in", "", "--materials-file FILE");
   return {};
 }
 
@@ -73,35 +68,19 @@ deck::NamedMaterials known_materials(const DeckOptions& o, const Law* law, deck:
 void DeckOptions::add_to(Options& command, bool own_materials, Option needed)
 {
   const std::size_t before = command.size();
-  command
-      .add_option("--var", variables, "NAME VALUE: a variable of the deck, as liggghts -var; several times")
-      ->pairs_of_words();
-  if (own_materials)
-    command.add_option("--materials-file", materials_file, "MATERIALS.toml: yield stresses and hardening");
+  command.add_option("--var", variables, "NAME VALUE: a variable of the deck, as liggghts -var; several times").pairs_of_words();
+  if (own_materials) command.add_option("--materials-file", materials_file, "MATERIALS.toml: yield stresses and hardening");
   command
       .add_option(
-          "--materials", materials,
-          "names of its materials, one for each atom type in their order (default: the words after "
-          "'materials'\nin the deck's pair_style)")
-      ->list();
-  command.add_option("--drop-height", drop_height, "m, from which every particle falls to the lowest wall")
-      ->check(above_zero());
-  command.add_option("--radius", radius, "R or R_MIN R_MAX, m, of particles that the deck does not show")
-      ->expected(1, 2)
-      ->list()
-      ->check(above_zero());
-  command.add_option("--density", density, "kg/m^3, of the same")->check(above_zero());
-  command.add_option("--speed", speed, "m/s, the largest approach speed of any two bodies")
-      ->check(above_zero());
-  command.add_option("--particles", particles, "how many there are, for the cost")->check(above_zero());
-  command
-      .add_option("--rate", rate, "particle-steps a second, for the cost (default: one core, dense hopper)")
-      ->check(above_zero())
-      ->capture_default_str();
-  command.add_option(
-      "--from", visited,
-      "JSON of fix granulaw/stats: what a run of this deck visited replaces what is foreseen, with a "
-      "margin of 1.25");
+          "--materials", materials, "names of its materials, one for each atom type in their order (default: the words after 'materials'\nin the deck's pair_style)")
+      .list();
+  command.add_option("--drop-height", drop_height, "m, from which every particle falls to the lowest wall").check(above_zero());
+  command.add_option("--radius", radius, "R or R_MIN R_MAX, m, of particles that the deck does not show").expected(1, 2).list().check(above_zero());
+  command.add_option("--density", density, "kg/m^3, of the same").check(above_zero());
+  command.add_option("--speed", speed, "m/s, the largest approach speed of any two bodies").check(above_zero());
+  command.add_option("--particles", particles, "how many there are, for the cost").check(above_zero());
+  command.add_option("--rate", rate, "particle-steps a second, for the cost (default: one core, dense hopper)").check(above_zero()).capture_default_str();
+  command.add_option("--from", visited, "JSON of fix granulaw/stats: what a run of this deck visited replaces what is foreseen, with a margin of 1.25");
   if (!needed) return;
   for (Option& own : command.from(before)) own.needs(needed);
 }
@@ -132,10 +111,8 @@ PlannedDeck plan_scene(deck::Scene scene, const DeckOptions& o)
   }
   p.rate = o.rate;
   std::optional<Law> law;  // a materials file goes before it: it may be of other materials by now
-  if (o.materials_file.empty() && !result.scene.law_file.empty() && std::ifstream(result.scene.law_file))
-    law = read_law(result.scene.law_file);
-  deck::name_materials(p, result.scene, known_materials(o, law ? &*law : nullptr, result.scene), o.materials,
-                       !o.materials_file.empty());
+  if (o.materials_file.empty() && !result.scene.law_file.empty() && std::ifstream(result.scene.law_file)) law = read_law(result.scene.law_file);
+  deck::name_materials(p, result.scene, known_materials(o, law ? &*law : nullptr, result.scene), o.materials, !o.materials_file.empty());
   deck::set_contact_law(p, result.scene, std::move(law), own_atlas());
   std::optional<deck::Visited> visited;
   if (!o.visited.empty()) visited = deck::read_visited(o.visited);
@@ -146,22 +123,19 @@ PlannedDeck plan_scene(deck::Scene scene, const DeckOptions& o)
 std::string questions_text(const deck::Plan& plan)
 {
   std::string text;
-  for (const deck::Question& q : plan.questions)
-    text += fmt::format("  {}: give it by {}\n", printable(q.what), q.option);
+  for (const deck::Question& q : plan.questions) text += fmt::format("  {}: give it by {}\n", printable(q.what), q.option);
   return text;
 }
 
 void require_answers(const deck::Plan& plan, const std::string& deck)
 {
   for (const deck::Question& q : plan.questions)
-    if (q.option != "--particles N")
-      fail(deck, fmt::format("not in the deck: {}: give it by {}", q.what, q.option));
+    if (q.option != "--particles N") fail(deck, fmt::format("not in the deck: {}: give it by {}", q.what, q.option));
 }
 
 std::string step_text(double time_step)
 {
-  const double unit = std::pow(10.0, std::floor(std::log10(time_step)) - 2);
-  return fmt::format("{:.3g}", std::floor(time_step / unit * (1 + 1e-12)) * unit);
+  return fmt::format("{:.3g}", deck::rounded_down(time_step, 3));
 }
 
 }  // namespace granulaw

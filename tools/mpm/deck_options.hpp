@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/planned_deck.hpp"
+#include "deck/plan.hpp"
 #include "options.hpp"
 
 namespace granulaw {

@@ -15,19 +15,14 @@ namespace granulaw {
 
 void FarmOptions::add_to(Options& command)
 {
-  command
-      .add_option("--jobs", jobs,
-                  "runs at the same time in each process (default: one for each core; under mpirun: one)")
-      ->check(whole_from_to(1, 1024));
-  const Option folder =
-      command.add_option("--cache", cache, "folder for finished runs")->capture_default_str();
-  command.add_flag("--no-cache", no_cache, "keep no finished run and reuse none")->excludes(folder);
+  command.add_option("--jobs", jobs, "runs at the same time in each process (default: one for each core; under mpirun: one)").check(whole_from_to(1, 1024));
+  const Option folder = command.add_option("--cache", cache, "folder for finished runs").capture_default_str();
+  command.add_flag("--no-cache", no_cache, "keep no finished run and reuse none").excludes(folder);
 }
 
 void FarmOptions::check() const
 {
-  if (!no_cache && std::filesystem::exists(cache) && !std::filesystem::is_directory(cache))
-    fail("--cache", "is no folder", fmt::format("'{}'", cache));
+  if (!no_cache && std::filesystem::exists(cache) && !std::filesystem::is_directory(cache)) fail("--cache", "is no folder", fmt::format("'{}'", cache));
 }
 
 std::unique_ptr<Farm> FarmOptions::farm() const
@@ -58,8 +53,7 @@ void print_count(const FarmCount& c)
   fmt::print("{} runs made in {:.1f} CPU s", c.made, c.cpu_s);
   if (ranks() > 1) fmt::print(" on {} ranks", ranks());
   if (c.from_cache) fmt::print(", {} taken from the cache ({:.1f} CPU s saved)", c.from_cache, c.cpu_s_saved);
-  if (c.retried)
-    fmt::print("; {} of them failed at first, {} at a higher resolution too", c.retried, c.failed);
+  if (c.retried) fmt::print("; {} of them failed at first, {} at a higher resolution too", c.retried, c.failed);
   fmt::print("\n");
 }
 

@@ -16,7 +16,6 @@
 #include "command.hpp"
 #include "law/damage_number.hpp"
 #include "material_file/plausible.hpp"
-#include "run_and_report.hpp"
 #include "run_report.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
 #include "solver/runs.hpp"
@@ -61,17 +60,13 @@ constexpr double slowest = 1e-10;
 /// `velocity` and `wave_speed` in m/s. Beyond half the wave speed the solver refuses, too.
 void check_velocity(double velocity, double wave_speed)
 {
-  if (!(velocity > 0 && std::isfinite(velocity)))
-    fail("--velocity", "cannot be used", fmt::format("{:g} m/s", velocity), "over 0");
+  if (!(velocity > 0 && std::isfinite(velocity))) fail("--velocity", "cannot be used", fmt::format("{:g} m/s", velocity), "over 0");
   if (velocity > 0.5 * wave_speed)
-    fail("--velocity", "is beyond what an impact of a particle can be resolved for",
-         fmt::format("{:g} m/s", velocity),
-         fmt::format("up to half the wave speed sqrt(E*/rho), {:.4g} m/s", 0.5 * wave_speed));
+    fail("--velocity", "is beyond what an impact of a particle can be resolved for", fmt::format("{:g} m/s", velocity),
+        fmt::format("up to half the wave speed sqrt(E*/rho), {:.4g} m/s", 0.5 * wave_speed));
   if (velocity < slowest * wave_speed)
-    fail("--velocity", "is too slow to be resolved (Hertz's law holds there)",
-         fmt::format("{:g} m/s", velocity),
-         fmt::format("{:g} times the wave speed sqrt(E*/rho) or more, {:.4g} m/s", slowest,
-                     slowest * wave_speed));
+    fail("--velocity", "is too slow to be resolved (Hertz's law holds there)", fmt::format("{:g} m/s", velocity),
+        fmt::format("{:g} times the wave speed sqrt(E*/rho) or more, {:.4g} m/s", slowest, slowest * wave_speed));
   check_plausible("mpm impact", "velocity", "--velocity", velocity);
 }
 
@@ -79,17 +74,13 @@ void check_velocity(double velocity, double wave_speed)
 double damage_number_of(const Meeting& m, double velocity)
 {
   const LawMaterial own = law_material("particle", m.particle.materials.front());
-  const Material* other = m.partner.particle ? &m.partner.particle->materials.front()
-                          : m.partner.wall   ? &*m.partner.wall
-                                             : nullptr;
-  if (!other)
-    return own.yields() ? damage_number(own, PairMapping::rigid_partner(own.e_star()), velocity) : 0.0;
+  const Material* other = m.partner.particle ? &m.partner.particle->materials.front() : m.partner.wall ? &*m.partner.wall : nullptr;
+  if (!other) return own.yields() ? damage_number(own, PairMapping::rigid_partner(own.e_star()), velocity) : 0.0;
   const LawMaterial partner = law_material("partner", *other);
   const bool own_yields = yields_first(own, partner);
   const LawMaterial &yielding = own_yields ? own : partner, &second = own_yields ? partner : own;
   if (!yielding.yields()) return 0.0;
-  return damage_number(yielding, PairMapping::deformable_partner(yielding.e_star(), second.e_star()),
-                       velocity);
+  return damage_number(yielding, PairMapping::deformable_partner(yielding.e_star(), second.e_star()), velocity);
 }
 
 /// The mass by its impulse; the tensor of inertia is that of a homogeneous body of this mass.
@@ -116,13 +107,11 @@ bool is_central(const Particle& particle, const Approach& thrown)
 
 /// Thrown at the wall. Where the body is eccentric e and the works of the summary are those of the contact:
 /// the velocities of its centre do not give them.
-RunResult body_impact(const Meeting& m, const Approach& thrown, const RunOptions& options,
-                      CentreMotion& centre)
+RunResult body_impact(const Meeting& m, const Approach& thrown, const RunOptions& options, CentreMotion& centre)
 {
   RunResult result = granulaw::impact(m.particle, thrown, m.partner, options);
   if (!result.rebound) return result;
-  const RigidMotion before{Vector3(thrown.tangential_velocity, 0, -thrown.velocity),
-                           Vector3(0, thrown.spin, 0)};
+  const RigidMotion before{Vector3(thrown.tangential_velocity, 0, -thrown.velocity), Vector3(0, thrown.spin, 0)};
   const ContactWork work = contact_work(result, rigid_body(m.particle, thrown, *result.rebound), before);
   if (!is_central(m.particle, thrown)) {
     result.summary.restitution = work.restitution();
@@ -142,9 +131,7 @@ void impact(ImpactRequest r)
   print_setting(r.run, m.particle, r.velocity, damage_number_of(m, r.velocity));
   const RunIdentity asked{{"command", "impact"}, {"--velocity", fmt::format("{}", r.velocity)}};
   const Approach thrown = throw_of(r);
-  const auto run = [&](const RunOptions& options) {
-    return granulaw::impact(m.particle, thrown, m.partner, options);
-  };
+  const auto run = [&](const RunOptions& options) { return granulaw::impact(m.particle, thrown, m.partner, options); };
   if (in_three_dimensions(r.run, m.particle)) {
     RunIdentity oblique = asked;
     oblique.emplace_back("--friction", fmt::format("{}", thrown.friction));
@@ -153,8 +140,7 @@ void impact(ImpactRequest r)
     oblique.emplace_back("--orientation", fmt::format("{}", fmt::join(thrown.orientation, ",")));
     CentreMotion centre{thrown.velocity, thrown.tangential_velocity};
     return run_and_report(
-        r.run, m, oblique, false,
-        [&](const RunOptions& options) { return body_impact(m, thrown, options, centre); }, centre);
+        r.run, m, oblique, false, [&](const RunOptions& options) { return body_impact(m, thrown, options, centre); }, centre);
   }
   run_and_report(r.run, m, asked, false, run);
 }
@@ -163,28 +149,21 @@ void define(Options& command)
 {
   const auto r = std::make_shared<ImpactRequest>();
   r->run.add_to(command);
-  command.add_option("--velocity", r->velocity, "approach speed, m/s")->required();
+  command.add_option("--velocity", r->velocity, "approach speed, m/s").required();
   command
-      .add_option(
-          "--orientation", r->orientation,
-          "three dimensions: X,Y,Z, the direction in the body's frame that points at the wall. The body's "
-          "axis nearest to it leans towards +x of the wall")
-      ->list()
-      ->expected(3);
-  command.add_option("--friction", r->friction,
-                     "three dimensions: Coulomb's coefficient of the wall, 0 to 10");
-  command.add_option("--tangential-velocity", r->tangential_velocity,
-                     "three dimensions: velocity along +x of the wall, m/s");
-  command.add_option(
-      "--spin", r->spin,
-      "three dimensions: rad/s about +y of the wall, forward as of a body that rolls along +x");
+      .add_option("--orientation", r->orientation,
+          "three dimensions: X,Y,Z, the direction in the body's frame that points at the wall. The body's axis nearest to it leans towards +x of the wall")
+      .list()
+      .expected(3);
+  command.add_option("--friction", r->friction, "three dimensions: Coulomb's coefficient of the wall, 0 to 10");
+  command.add_option("--tangential-velocity", r->tangential_velocity, "three dimensions: velocity along +x of the wall, m/s");
+  command.add_option("--spin", r->spin, "three dimensions: rad/s about +y of the wall, forward as of a body that rolls along +x");
   command.callback([r] { impact(*r); });
 }
 
 }  // namespace of_impact
 
-extern const Command impact_command{
-    "impact",
+extern const Command impact_command{"impact",
     "A particle hits a wall, or another particle: e, force, overlap, contact time.\n"
     "Example: mpm impact materials.toml --particle grain --velocity 1.0 -o trace.csv",
     of_impact::define};

@@ -9,10 +9,10 @@
 #include "base/error.hpp"
 #include "characterise/body/law_material.hpp"
 #include "characterise/build/support_ratio.hpp"
+#include "collision_report.hpp"
 #include "command.hpp"
 #include "law/law_file.hpp"
 #include "law/pair_lines.hpp"
-#include "percent.hpp"
 #include "shape_output.hpp"
 
 namespace granulaw {
@@ -21,13 +21,9 @@ namespace of_info {
 
 void print_material(const LawMaterial& m, const std::map<std::string, std::string>& provenance)
 {
-  fmt::print(
-      "  density              {:.6g} kg/m^3\n  Young's modulus      {:.6g} Pa\n  Poisson's ratio      "
-      "{:.6g}\n",
-      m.density, m.youngs_modulus, m.poisson_ratio);
+  fmt::print("  density              {:.6g} kg/m^3\n  Young's modulus      {:.6g} Pa\n  Poisson's ratio      {:.6g}\n", m.density, m.youngs_modulus, m.poisson_ratio);
   if (!m.yields()) return fmt::print("  elastic\n");
-  fmt::print("  yield stress         {:.6g} Pa  (E*/Y = {:.4g})\n", m.yield_stress,
-             m.e_star() / m.yield_stress);
+  fmt::print("  yield stress         {:.6g} Pa  (E*/Y = {:.4g})\n", m.yield_stress, m.e_star() / m.yield_stress);
   const auto own = provenance.find("hardening." + m.name), rate = provenance.find("rate." + m.name);
   if (own != provenance.end())
     fmt::print("  hardening            {}\n", own->second);
@@ -42,37 +38,34 @@ void print_axis(const AxisTable& t, const LawMaterial& m, const Certificate& c)
   if (t.by == AxisTable::By::inertia)
     fmt::print("  velocity axis         to I = rho V^2/Y = {:.3g}", t.speed_end * t.speed_end);
   else
-    fmt::print("  rate axis            V = {:.3g} to {:.3g} m/s on a wall, for R = {:.4g} m only",
-               t.speed_begin * speed_unit(m), t.speed_end * speed_unit(m), t.reference_radius);
-  fmt::print(", {} levels of {} nodes; without it force {:+.2g} %, e {:+.2g} % there\n", t.level.size(),
-             t.shares(), 100 * c.axis_cost_force, 100 * c.axis_cost_restitution);
+    fmt::print("  rate axis            V = {:.3g} to {:.3g} m/s on a wall, for R = {:.4g} m only", t.speed_begin * speed_unit(m), t.speed_end * speed_unit(m),
+        t.reference_radius);
+  fmt::print(
+      ", {} levels of {} nodes; without it force {:+.2g} %, e {:+.2g} % there\n", t.level.size(), t.shares(), 100 * c.axis_cost_force, 100 * c.axis_cost_restitution);
 }
 
 void print_origin(const Certificate& c)
 {
   fmt::print("  origin               {}", printable(c.origin));
   if (c.origin != "atlas" && (c.atlas_error_force > 0 || c.atlas_error_restitution > 0))
-    fmt::print(" (without speed from the atlas: {})",
-               ErrorBound{c.atlas_error_force, c.atlas_error_restitution}.text());
+    fmt::print(" (without speed from the atlas: {})", ErrorBound{c.atlas_error_force, c.atlas_error_restitution}.text());
   fmt::print("\n");
 }
 
 void print_errors(const BodyLaw& body)
 {
   const Certificate& c = body.certificate;
-  fmt::print("  error bound          {} (95 % of {})\n", bound_of(body).text(),
-             body.shape ? "orientations" : "impacts");
+  fmt::print("  error bound          {} (95 % of {})\n", bound_of(body).text(), body.shape ? "orientations" : "impacts");
   if (body.shape) fmt::print("  of spheres           {} (the same law, of a sphere)\n", bound_of(c).text());
-  fmt::print("  solver error         force {}, e {} (of a computation, by two resolutions; included in the bound)\n",
-             percent(c.solver_error_force), percent(c.solver_error_restitution));
+  fmt::print("  solver error         force {}, e {} (of a computation, by two resolutions; included in the bound)\n", percent(c.solver_error_force),
+      percent(c.solver_error_restitution));
   fmt::print("  interpolation error  {}", percent(c.interpolation_error));
   if (c.origin == "runs")
-    fmt::print(";  held-out e {};  scatter of the runs {}\n  reload loop          {} of the loading work",
-               percent(c.held_out_error), percent(c.residual_scatter), percent(c.reload_loop_area));
+    fmt::print(";  held-out e {};  scatter of the runs {}\n  reload loop          {} of the loading work", percent(c.held_out_error), percent(c.residual_scatter),
+        percent(c.reload_loop_area));
   fmt::print("\n");
   if (c.verification_impacts > 0)
-    fmt::print("  against {:.0f} impacts    {}\n", c.verification_impacts,
-               errors_text(c.verification_error_force, c.verification_error_restitution));
+    fmt::print("  against {:.0f} impacts    {}\n", c.verification_impacts, errors_text(c.verification_error_force, c.verification_error_restitution));
 }
 
 void print_body(const BodyLaw& body, const std::map<std::string, std::string>& provenance)
@@ -81,34 +74,26 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
   const Certificate& c = body.certificate;
   fmt::print("material {}\n", m.name);
   if (!body.is_sphere())
-    fmt::print(
-        "  body                 {}, radius of curvature {:.6g} m, mass {:.4g} rho 4/3 pi R^3: rigid wall and "
-        "equal bodies only\n",
-        body.body, body.pole_radius, body.mass_ratio);
+    fmt::print("  body                 {}, radius of curvature {:.6g} m, mass {:.4g} rho 4/3 pi R^3: rigid wall and equal bodies only\n", body.body, body.pole_radius,
+        body.mass_ratio);
   print_material(m, provenance);
-  fmt::print("  range                delta/R = 0 to {:.4g}, {} nodes, onset of yield at {:.4g}\n",
-             body.curve.end(), body.curve.table().force.size(), body.curve.onset());
+  fmt::print("  range                delta/R = 0 to {:.4g}, {} nodes, onset of yield at {:.4g}\n", body.curve.end(), body.curve.table().force.size(), body.curve.onset());
   if (const AxisTable* axis = body.curve.axis()) print_axis(*axis, m, c);
   print_origin(c);
   print_errors(body);
-  if (std::isfinite(c.damage_number_max))
-    fmt::print("  bound holds up to    I = rho V^2/Y = {:.3g}\n", c.damage_number_max);
+  if (std::isfinite(c.damage_number_max)) fmt::print("  bound holds up to    I = rho V^2/Y = {:.3g}\n", c.damage_number_max);
   if (body.shape) {
     fmt::print("  shape                {}\n", printable(body.shape->shape.substr(0, 100)));
     print_shape("  orientations", *body.shape);
   }
-  if (m.yields())
-    fmt::print("  support matters      F free/F midplane about {:.3g} at its largest overlap (E*/Y = 100)\n",
-               support_ratio(body.curve.end()));
+  if (m.yields()) fmt::print("  support matters      F free/F midplane about {:.3g} at its largest overlap (E*/Y = 100)\n", support_ratio(body.curve.end()));
 }
 
 void print_pair(const Law& law, const LawPair& pair)
 {
-  for (const PairLine& line : pair_lines(law, pair))
-    fmt::print("  pair {}:{}  {}\n", pair.a, pair.b, line.text());
+  for (const PairLine& line : pair_lines(law, pair)) fmt::print("  pair {}:{}  {}\n", pair.a, pair.b, line.text());
   if (pair.reduction_error_force > 0 || pair.reduction_error_restitution > 0)
-    fmt::print("  pair {}:{}  the pair rule for other radii: {}\n", pair.a, pair.b,
-               errors_text(pair.reduction_error_force, pair.reduction_error_restitution));
+    fmt::print("  pair {}:{}  the pair rule for other radii: {}\n", pair.a, pair.b, errors_text(pair.reduction_error_force, pair.reduction_error_restitution));
 }
 
 void info(const std::string& path)
@@ -130,14 +115,12 @@ void info(const std::string& path)
 void define(Options& command)
 {
   const auto path = std::make_shared<std::string>();
-  command.add_option("LAW", *path, "law file of mpm table")->required();
+  command.add_option("LAW", *path, "law file of mpm table").required();
   command.callback([path] { info(*path); });
 }
 
 }  // namespace of_info
 
-extern const Command info_command{
-    "info", "Contents of a law file: materials, pairs, errors, range, origin.\nExample: mpm info law.h5",
-    of_info::define};
+extern const Command info_command{"info", "Contents of a law file: materials, pairs, errors, range, origin.\nExample: mpm info law.h5", of_info::define};
 
 }  // namespace granulaw

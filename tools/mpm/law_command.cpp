@@ -7,8 +7,6 @@
 #include "command.hpp"
 #include "law/law_file.hpp"
 #include "law_report.hpp"
-#include "pair_options.hpp"
-#include "percent.hpp"
 
 namespace granulaw {
 
@@ -24,14 +22,13 @@ std::string bound_text(const StatedCollision& found)
 {
   const ErrorBound bound = found.bound();
   if (!bound.stated()) return "not stated";
-  return fmt::format("F_max {}, e {:.2g}", percent(bound.force),
-                     bound.restitution_at(found.replay.restitution));
+  return fmt::format("F_max {}, e {:.2g}", percent(bound.force), bound.restitution_at(found.replay.restitution));
 }
 
 void print(const ChosenPair& c, double velocity, const StatedCollision& found)
 {
-  fmt::print("{}:{} at {:.4g} m/s, R* = {:.4g} m, I = rho V^2/Y = {:.3g}, {} law\n", c.names.first,
-             c.names.second, velocity, c.r_eff, found.damage_number, name_of(found.statement.kind));
+  fmt::print("{}:{} at {:.4g} m/s, R* = {:.4g} m, I = rho V^2/Y = {:.3g}, {} law\n", c.names.first, c.names.second, velocity, c.r_eff, found.damage_number,
+      name_of(found.statement.kind));
   print_collision(found.replay, fmt::format("{:.3g} of the law's range", found.replay.delta_max / c.limit()));
   fmt::print("error bound (95 %)             {}\n", bound_text(found));
 }
@@ -54,21 +51,17 @@ void replay(const LawRequest& r)
 void define(Options& command)
 {
   const auto r = std::make_shared<LawRequest>();
-  command.add_option("LAW", r->law, "law file of mpm table")->required();
+  command.add_option("LAW", r->law, "law file of mpm table").required();
   define_pair_options(command, *r);
-  command.add_option("--velocity", r->velocity, "approach speed, m/s")->required();
-  command.add_flag(
-      "--json", r->json,
-      "print one JSON object instead of the summary, with the keys of mpm impact. Also the error bound: "
-      "error_force (relative) and error_restitution (absolute), null beyond damage_number_max and outside the velocity axis. The larger, "
-      "both relative, is error_estimate. The law_kind is single, two-body, composed, corrected or reduced");
+  command.add_option("--velocity", r->velocity, "approach speed, m/s").required();
+  command.add_flag("--json", r->json,
+      "print one JSON object instead of the summary, with the keys of mpm impact. Also the error bound: error_force (relative) and error_restitution (absolute), null beyond damage_number_max and outside the velocity axis. The larger, both relative, is error_estimate. The law_kind is single, two-body, composed, corrected or reduced");
   command.callback([r] { replay(*r); });
 }
 
 }  // namespace of_law
 
-extern const Command law_command{
-    "law",
+extern const Command law_command{"law",
     "One head-on collision by the law, as a particle code computes it; no solver.\n"
     "Example: mpm law law.h5 --pair powder:wall --radius 2e-3 --velocity 0.5 --json",
     of_law::define};

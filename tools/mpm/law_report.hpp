@@ -18,29 +18,21 @@ inline std::vector<std::string> warnings_of(const ChosenPair& c, double velocity
 {
   std::vector<std::string> warnings;
   if (found.needs_axis)
-    warnings.push_back(
-        fmt::format("Johnson's damage number I = rho V^2/Y = {:.3g} is above {:.3g}: the law has no velocity axis, so e and "
-                    "force are too high",
-                    found.damage_number, found.statement.damage_number_max));
+    warnings.push_back(fmt::format("Johnson's damage number I = rho V^2/Y = {:.3g} is above {:.3g}: the law has no velocity axis, so e and force are too high",
+        found.damage_number, found.statement.damage_number_max));
   else if (found.beyond_bound)
-    warnings.push_back(fmt::format(
-        "Johnson's damage number I = rho V^2/Y = {:.3g} is above {:.3g}, up to which the error bound of this {} law holds",
+    warnings.push_back(fmt::format("Johnson's damage number I = rho V^2/Y = {:.3g} is above {:.3g}, up to which the error bound of this {} law holds",
         found.damage_number, found.statement.damage_number_max, name_of(found.statement.kind)));
   if (!found.statement.covers_size())
     warnings.push_back(fmt::format(
-        "R_s/(R_s + R_h) of these radii is {:.3g} off the nearest law of the pair. The error bound is "
-        "larger by that (mpm table --radius-ratio makes more laws)",
+        "R_s/(R_s + R_h) of these radii is {:.3g} off the nearest law of the pair. The error bound is larger by that (mpm table --radius-ratio makes more laws)",
         found.statement.size_off));
   if (found.replay.left_speeds)
-    warnings.push_back(
-        fmt::format("{:.4g} m/s is beyond {:.4g} m/s, where the law's velocity axis ends: the corrections of that "
-                    "speed are used",
-                    velocity, c.law.max_speed(c.r_eff, c.m_eff)));
+    warnings.push_back(fmt::format(
+        "{:.4g} m/s is beyond {:.4g} m/s, where the law's velocity axis ends: the corrections of that speed are used", velocity, c.law.max_speed(c.r_eff, c.m_eff)));
   if (found.replay.held_speed)
-    warnings.push_back(
-        fmt::format("{:.4g} m/s is below {:.4g} m/s, the lowest speed of this rate-dependent law: the law of that "
-                    "speed is used",
-                    velocity, c.law.min_speed(c.r_eff, c.m_eff)));
+    warnings.push_back(fmt::format(
+        "{:.4g} m/s is below {:.4g} m/s, the lowest speed of this rate-dependent law: the law of that speed is used", velocity, c.law.min_speed(c.r_eff, c.m_eff)));
   return warnings;
 }
 
@@ -52,10 +44,8 @@ inline nlohmann::ordered_json law_json(const StatedCollision& found, double cpu_
   const double restitution = bound.restitution_at(result.restitution);
   nlohmann::ordered_json out = collision_json(result);
   put_effort(out, 0, static_cast<long>(result.samples.size()), cpu_s, 0,  // no solver: no points
-             std::max(bound.force, restitution / result.restitution));
-  const auto where_bounded = [&](double error) {
-    return found.is_bounded() ? nlohmann::ordered_json(error) : nlohmann::ordered_json();
-  };
+      std::max(bound.force, restitution / result.restitution));
+  const auto where_bounded = [&](double error) { return found.is_bounded() ? nlohmann::ordered_json(error) : nlohmann::ordered_json(); };
   out["error_force"] = where_bounded(bound.force);
   out["error_restitution"] = where_bounded(restitution);
   out["damage_number"] = out["inertia"] = found.damage_number;

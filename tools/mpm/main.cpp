@@ -21,7 +21,6 @@
 #include "deck/questions.hpp"
 #include "ranks.hpp"
 #include "terminal.hpp"
-#include "word_lists.hpp"
 
 namespace granulaw {
 std::string command_line;
@@ -99,11 +98,9 @@ std::string unknown_word(const CLI::App& app, int argc, char** argv)
     const std::string word = std::string(argv[k]).substr(0, std::string(argv[k]).find('='));
     const bool is_option = word.starts_with("--") && word != "--";
     if (!is_option && command) continue;
-    const std::vector<std::string> known =
-        is_option ? options_of(command ? *command : app) : commands_of(app);
+    const std::vector<std::string> known = is_option ? options_of(command ? *command : app) : commands_of(app);
     if (std::find(known.begin(), known.end(), word) == known.end() && !word.starts_with("-h"))
-      return fmt::format("no {} '{}'{}: allowed is {}", is_option ? "option" : "command", printable(word),
-                         did_you_mean(word, known), fmt::join(known, ", "));
+      return fmt::format("no {} '{}'{}: allowed is {}", is_option ? "option" : "command", printable(word), did_you_mean(word, known), fmt::join(known, ", "));
     if (!is_option) command = command_named(word, app);
   }
   return {};
@@ -113,9 +110,7 @@ std::string unknown_word(const CLI::App& app, int argc, char** argv)
 std::string empty_word(int argc, char** argv)
 {
   for (int k = 1; k < argc; ++k)
-    if (*argv[k] == '\0')
-      return fmt::format("{}: found an empty word, allowed is a name or a number",
-                         k > 1 ? printable(argv[k - 1]) : "the command");
+    if (*argv[k] == '\0') return fmt::format("{}: found an empty word, allowed is a name or a number", k > 1 ? printable(argv[k - 1]) : "the command");
   return {};
 }
 
@@ -134,16 +129,14 @@ void add_commands(CLI::App& app)
 /// True if the first word is a command whose runs are spread over the processes of mpirun.
 bool runs_on_ranks(const std::string& word)
 {
-  return std::any_of(commands.begin(), commands.end(),
-                     [&](const CommandEntry& c) { return c.command->on_ranks && c.command->name == word; });
+  return std::any_of(commands.begin(), commands.end(), [&](const CommandEntry& c) { return c.command->on_ranks && c.command->name == word; });
 }
 
 /// "Could not convert: --velocity = fast" in the tool's own words.
 std::string conversion_sentence(const std::string& text)
 {
   const auto colon = text.find(": ");
-  return fmt::format("{}: is no number, or not of the kind that is wanted",
-                     printable(colon == std::string::npos ? text : text.substr(colon + 2)));
+  return fmt::format("{}: is no number, or not of the kind that is wanted", printable(colon == std::string::npos ? text : text.substr(colon + 2)));
 }
 
 std::string parse_sentence(const CLI::App& app, int argc, char** argv, const CLI::ParseError& error)
@@ -211,9 +204,7 @@ Outcome run(int argc, char** argv)
     return {1, fmt::format("{}: cannot be read or written", printable(error.path1().string()))};
   } catch (const std::exception&) {
     // a library's words mean nothing to who gave the command; a debugger that stops at throws shows them
-    return {1,
-            fmt::format("a defect of this program has ended the command: please report '{}' with its files",
-                        printable(command_line))};
+    return {1, fmt::format("a defect of this program has ended the command: please report '{}' with its files", printable(command_line))};
   }
 }
 

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "atlas/law_from_atlas.hpp"
-#include "atlas_path.hpp"
 #include "base/error.hpp"
 #include "characterise/body/characterised_body.hpp"
 #include "characterise/body/law_material.hpp"
@@ -16,6 +15,7 @@
 #include "law/oblique.hpp"
 #include "material_file/materials_file.hpp"
 #include "option_checks.hpp"
+#include "own_files.hpp"
 #include "solver/runs.hpp"
 #include "terminal.hpp"
 
@@ -45,10 +45,9 @@ Law law_of(const ObliqueRequest& r, const LawMaterial& material, const Material&
   const auto atlas = own_atlas();
   if (!atlas) fail("mpm oblique", "the atlas that came with the program is missing: give --law, or --tangential solver");
   std::string why = atlas->why_not(MaterialRatios::of(material));
-  if (why.empty() && !(whole.hardening.name.empty() && whole.rate.name.empty() && whole.yield_surface.name.empty())) why = "has a hardening law or a rate that the atlas does not hold";
-  if (!why.empty())
-    fail(r.materials, fmt::format("'{}' {}: make its law by mpm table and give it as --law, or say --tangential solver",
-                                  material.name, why));
+  if (why.empty() && !(whole.hardening.name.empty() && whole.rate.name.empty() && whole.yield_surface.name.empty()))
+    why = "has a hardening law or a rate that the atlas does not hold";
+  if (!why.empty()) fail(r.materials, fmt::format("'{}' {}: make its law by mpm table and give it as --law, or say --tangential solver", material.name, why));
   LawRange range;
   range.depth = Atlas::depth, range.fastest = 0.3;
   Law law;
@@ -70,8 +69,8 @@ Row by_law(const ObliqueRequest& r, const PairLaw& pair, const ObliqueThrow& thr
   constexpr double customary_damping = 0.1;  // tangentialDampingRatio of the plug-in
   const std::clock_t start = std::clock();
   const ObliqueAnswer a = replay_oblique(pair, thrown, kind, r.friction, customary_damping, r.steps);
-  return {kind == TangentialKind::plastic ? "plastic" : "history", a.restitution,
-          a.tangential / thrown.tangential_velocity, a.spin, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC};
+  return {kind == TangentialKind::plastic ? "plastic" : "history", a.restitution, a.tangential / thrown.tangential_velocity, a.spin,
+      static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC};
 }
 
 Row by_solver(const ObliqueRequest& r, const Particle& particle, const ObliqueThrow& thrown)
@@ -92,16 +91,14 @@ Row by_solver(const ObliqueRequest& r, const Particle& particle, const ObliqueTh
 void print(const std::vector<Row>& rows)
 {
   fmt::print("{:<10} {:>8} {:>13} {:>16} {:>9}\n", "tangential", "e", "e_tangential", "spin, rad/s", "CPU s");
-  for (const Row& row : rows)
-    fmt::print("{:<10} {:>8.4f} {:>13.4f} {:>16.5g} {:>9.2g}\n", row.way, row.e, row.e_tangential, row.spin, row.cpu_s);
+  for (const Row& row : rows) fmt::print("{:<10} {:>8.4f} {:>13.4f} {:>16.5g} {:>9.2g}\n", row.way, row.e, row.e_tangential, row.spin, row.cpu_s);
 }
 
 void oblique(const ObliqueRequest& r)
 {
   const MaterialsFile file = read_materials(r.materials);
   const Particle& particle = file.particle(r.particle);
-  if (!particle.is_homogeneous_sphere())
-    fail(r.materials, fmt::format("'{}' is no homogeneous sphere", r.particle), r.particle, "a sphere of one material");
+  if (!particle.is_homogeneous_sphere()) fail(r.materials, fmt::format("'{}' is no homogeneous sphere", r.particle), r.particle, "a sphere of one material");
   const Material& material = particle.materials.front();
   const double along = r.velocity * std::tan(r.angle * M_PI / 180.0);
   const ObliqueThrow thrown{particle.radius, particle.volume() * material.density, r.velocity, along};
@@ -115,56 +112,40 @@ void oblique(const ObliqueRequest& r)
     const std::string& source = r.law.empty() ? r.materials : r.law;
     const PairLaw pair = resolve_pair(law, named.name, wall_name, source);
     check_size(pair, particle.radius, "mpm oblique");
-    if (const std::string why = unknown_flow_stress(law, pair); r.tangential == "plastic" && !why.empty())
-      fail(source, why);
-    rows.push_back(by_law(r, pair, thrown,
-                          r.tangential == "history" ? TangentialKind::history : TangentialKind::plastic));
+    if (const std::string why = unknown_flow_stress(law, pair); r.tangential == "plastic" && !why.empty()) fail(source, why);
+    rows.push_back(by_law(r, pair, thrown, r.tangential == "history" ? TangentialKind::history : TangentialKind::plastic));
     if (!r.json && r.tangential == "plastic") rows.push_back(by_law(r, pair, thrown, TangentialKind::history));
   }
   if (!r.json) return print(rows);
   const Row& row = rows.front();
-  print_json({{"tangential", row.way},
-              {"e", json_number(row.e)},
-              {"e_tangential", json_number(row.e_tangential)},
-              {"spin_after_rad_s", json_number(row.spin)},
-              {"velocity_normal_m_per_s", r.velocity},
-              {"velocity_tangential_m_per_s", along},
-              {"friction", r.friction},
-              {"cpu_s", row.cpu_s}});
+  print_json({{"tangential", row.way}, {"e", json_number(row.e)}, {"e_tangential", json_number(row.e_tangential)}, {"spin_after_rad_s", json_number(row.spin)},
+      {"velocity_normal_m_per_s", r.velocity}, {"velocity_tangential_m_per_s", along}, {"friction", r.friction}, {"cpu_s", row.cpu_s}});
 }
 
 void define(Options& command)
 {
   const auto r = std::make_shared<ObliqueRequest>();
-  command.add_option("materials", r->materials, "MATERIALS.toml")->required();
-  command.add_option("--particle", r->particle, "name of a sphere in it")->required();
-  command.add_option("--velocity", r->velocity, "normal approach speed, m/s")->required().check(above_zero());
-  command.add_option("--angle", r->angle, "of the velocity from the wall's normal, degrees")
-      ->required()
-      .check(from_to(0.1, 89.0));
-  command.add_option("--friction", r->friction, "Coulomb's coefficient")->required().check(from_to(0.0, 10.0));
+  command.add_option("materials", r->materials, "MATERIALS.toml").required();
+  command.add_option("--particle", r->particle, "name of a sphere in it").required();
+  command.add_option("--velocity", r->velocity, "normal approach speed, m/s").required().check(above_zero());
+  command.add_option("--angle", r->angle, "of the velocity from the wall's normal, degrees").required().check(from_to(0.1, 89.0));
+  command.add_option("--friction", r->friction, "Coulomb's coefficient").required().check(from_to(0.0, 10.0));
   command
       .add_option("--tangential", r->tangential,
-                  "'plastic' and 'history': LIGGGHTS's integration of the contact under the law; 'solver': the material "
-                  "point method in three dimensions, seconds to minutes")
-      ->among({"history", "plastic", "solver"})
+          "'plastic' and 'history': LIGGGHTS's integration of the contact under the law; 'solver': the material point method in three dimensions, seconds to minutes")
+      .among({"history", "plastic", "solver"})
       .capture_default_str();
   command.add_option("--law", r->law, "law file; without it the atlas's law of the material");
-  command.add_option("--steps", r->steps, "time steps in Hertz's contact time")
-      ->check(whole_from_to(10, 1000000))
-      .capture_default_str();
-  command.add_option("--resolution", r->resolution, "solver: cells across the contact")
-      ->check(whole_from_to(6, 60))
-      .capture_default_str();
-  command.add_option("--jobs", r->jobs, "solver: threads")->check(whole_from_to(1, 1024)).capture_default_str();
+  command.add_option("--steps", r->steps, "time steps in Hertz's contact time").check(whole_from_to(10, 1000000)).capture_default_str();
+  command.add_option("--resolution", r->resolution, "solver: cells across the contact").check(whole_from_to(6, 60)).capture_default_str();
+  command.add_option("--jobs", r->jobs, "solver: threads").check(whole_from_to(1, 1024)).capture_default_str();
   command.add_flag("--json", r->json, "one JSON object");
   command.callback([r] { oblique(*r); });
 }
 
 }  // namespace of_oblique
 
-extern const Command oblique_command{
-    "oblique",
+extern const Command oblique_command{"oblique",
     "A sphere without spin hits a rigid wall obliquely: e, tangential velocity and spin after.\n"
     "By LIGGGHTS's tangential history, by tangential plastic, or by the solver.\n"
     "Example: mpm oblique materials.toml --particle grain --velocity 1.0 --angle 45 --friction 0.3",

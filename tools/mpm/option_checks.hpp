@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/number_in.hpp"
 #include "options.hpp"
 
 namespace granulaw {
@@ -14,50 +14,35 @@ namespace granulaw {
 /// Checks of options that are numbers: what was found, what is allowed. CLI11's own let "nan" pass (it
 /// compares false with both ends), and write every digit of the largest double.
 
-/// The option's word as a number; NaN if it is none.
-inline double number_in(const std::string& word)
+inline Check number_check(const std::string& allowed, bool (*good)(double, double, double), double low, double high)
 {
-  char* end = nullptr;
-  const double value = std::strtod(word.c_str(), &end);
-  return end != word.c_str() && *end == '\0' ? value : std::nan("");
-}
-
-inline Check number_check(const std::string& allowed, bool (*good)(double, double, double), double low,
-                          double high)
-{
-  return {allowed, [=](const std::string& word) { return good(number_in(word), low, high); }};
+  return {allowed, [=](const std::string& word) { return good(number_in(word).value_or(std::nan("")), low, high); }};
 }
 
 /// From `low` to `high`, both included.
 inline Check from_to(double low, double high)
 {
   return number_check(
-      fmt::format("a number from {:g} to {:g}", low, high),
-      [](double value, double least, double most) { return value >= least && value <= most; }, low, high);
+      fmt::format("a number from {:g} to {:g}", low, high), [](double value, double least, double most) { return value >= least && value <= most; }, low, high);
 }
 /// A whole number, from `low` to `high`.
 inline Check whole_from_to(int low, int high)
 {
   return number_check(
       fmt::format("a whole number from {} to {}", low, high),
-      [](double value, double least, double most) {
-        return value >= least && value <= most && value == std::floor(value);
-      },
-      low, high);
+      [](double value, double least, double most) { return value >= least && value <= most && value == std::floor(value); }, low, high);
 }
 /// Over 0, up to `high`.
 inline Check above_zero_to(double high)
 {
   return number_check(
-      fmt::format("a number over 0, up to {:g}", high),
-      [](double value, double, double most) { return value > 0 && value <= most; }, 0, high);
+      fmt::format("a number over 0, up to {:g}", high), [](double value, double, double most) { return value > 0 && value <= most; }, 0, high);
 }
 /// Over 0, finite.
 inline Check above_zero()
 {
   return number_check(
-      "a number over 0", [](double value, double, double) { return value > 0 && std::isfinite(value); }, 0,
-      0);
+      "a number over 0", [](double value, double, double) { return value > 0 && std::isfinite(value); }, 0, 0);
 }
 
 /// Check beyond the validators, as Error "--depth: cannot be used: found FOUND, allowed is ALLOWED".
@@ -69,8 +54,7 @@ inline void require(bool good, const char* option, const std::string& found, con
 /// The same of a number with a unit, from `low` to `high`.
 inline void require_within(const char* option, double value, const char* unit, double low, double high)
 {
-  require(value >= low && value <= high, option, fmt::format("{:g} {}", value, unit),
-          fmt::format("{:g} to {:g} {}", low, high, unit));
+  require(value >= low && value <= high, option, fmt::format("{:g} {}", value, unit), fmt::format("{:g} to {:g} {}", low, high, unit));
 }
 
 }  // namespace granulaw

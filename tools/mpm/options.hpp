@@ -21,13 +21,12 @@ struct Check
   std::string complaint(const std::string& word) const;
 };
 
-/// One option of a command. `->` gives the option itself, as CLI11's handles do.
+/// One option of a command.
 class Option
 {
  public:
   explicit Option(CLI::Option* option = nullptr) : option_(option) {}
   explicit operator bool() const { return option_ != nullptr; }
-  Option* operator->() { return this; }
 
   Option& required();
   Option& needs(const Option& other);
@@ -37,7 +36,7 @@ class Option
   Option& expected(int least, int most);
   Option& expected(int words) { return expected(words, words); }
   Option& pairs_of_words();  ///< two words at a time, several times
-  Option& list();            ///< its values are divided by blanks or commas (word_lists.hpp)
+  Option& list();            ///< its values are divided by blanks or commas (split_lists)
   Option& description(const std::string& text);
   /// --help shows the value as it is now.
   Option& capture_default_str();
@@ -69,5 +68,13 @@ class Options
  private:
   CLI::App* app_;
 };
+
+// Lists on the command line: "a,b", "a, b" and "a b" behind an option that is one (Option::list) are the same.
+/// Each item of a list becomes a word.
+std::vector<std::string> split_lists(const CLI::App& command, const std::vector<std::string>& words);
+
+/// With the file that a list has taken before its command, whose own it is: `--materials a,b in.deck`. Empty: no list
+/// ends with a file.
+std::vector<std::string> give_file_back(const CLI::App& command, const std::vector<std::string>& words);
 
 }  // namespace granulaw

@@ -5,8 +5,8 @@
 #include <memory>
 #include <set>
 
-#include "base/error.hpp"
 #include "atlas/composed_law.hpp"
+#include "base/error.hpp"
 #include "command.hpp"
 #include "deck/densities.hpp"
 #include "deck/tangential_need.hpp"
@@ -32,8 +32,7 @@ std::string verdict(const deck::PairPlan& p)
 {
   if (!p.visited) return "not met by the run";
   if (!p.meeting.known_yield) return "yield stress unknown";
-  if (!p.needs_table)
-    return p.meeting.yields.yields() ? "elastic below its onset: Hertz suffices" : "elastic: Hertz suffices";
+  if (!p.needs_table) return p.meeting.yields.yields() ? "elastic below its onset: Hertz suffices" : "elastic: Hertz suffices";
   return "yields: table";
 }
 
@@ -83,42 +82,25 @@ constexpr double worth_runs = 0.01;
 
 ordered_json pair_json(const deck::PairPlan& p)
 {
-  const auto known = [&](double value) {
-    return p.meeting.known_yield ? json_number(value) : ordered_json();
-  };
+  const auto known = [&](double value) { return p.meeting.known_yield ? json_number(value) : ordered_json(); };
   ordered_json error;  // null: the law is the body's own
   if (is_unlike(p)) {
     const ComposedError stated = law_error(p);
-    error = {{"force", stated.force},
-             {"restitution", stated.restitution},
-             {"worth_own_law", stated.restitution > worth_runs && !p.meeting.wall}};
+    error = {{"force", stated.force}, {"restitution", stated.restitution}, {"worth_own_law", stated.restitution > worth_runs && !p.meeting.wall}};
   }
-  return {{"types", {p.meeting.a, p.meeting.b}},
-          {"wall", p.meeting.wall},
-          {"deformable_wall", p.meeting.deformable},
-          {"materials", {printable(p.meeting.name_a), printable(p.meeting.name_b)}},
-          {"speed_max_m_per_s", json_number(p.speed)},
-          {"speed_by", p.speed_basis},
-          {"onset_speed_m_per_s", known(p.onset)},
-          {"yield_velocity_m_per_s", known(p.yield_velocity)},
-          {"damage_number_max", json_number(p.damage_number)},
-          {"inertia_number_max", json_number(p.damage_number)},
-          {"overlap_over_radius_max", json_number(p.overlap)},
-          {"overlap_by", p.overlap_basis},
-          {"contact_time_min_s", json_number(p.contact_time)},
-          {"time_step_s", json_number(p.time_step)},
-          {"needs_table", p.needs_table},
-          {"law_error", error},
-          {"verdict", verdict(p)}};
+  return {{"types", {p.meeting.a, p.meeting.b}}, {"wall", p.meeting.wall}, {"deformable_wall", p.meeting.deformable},
+      {"materials", {printable(p.meeting.name_a), printable(p.meeting.name_b)}}, {"speed_max_m_per_s", json_number(p.speed)}, {"speed_by", p.speed_basis},
+      {"onset_speed_m_per_s", known(p.onset)}, {"yield_velocity_m_per_s", known(p.yield_velocity)}, {"damage_number_max", json_number(p.damage_number)},
+      {"inertia_number_max", json_number(p.damage_number)}, {"overlap_over_radius_max", json_number(p.overlap)}, {"overlap_by", p.overlap_basis},
+      {"contact_time_min_s", json_number(p.contact_time)}, {"time_step_s", json_number(p.time_step)}, {"needs_table", p.needs_table}, {"law_error", error},
+      {"verdict", verdict(p)}};
 }
 
 ordered_json cost_json(const PlannedDeck& d)
 {
-  return {{"particles", json_number(d.options.particles.value_or(d.scene.count()))},
-          {"particle_steps", json_number(d.plan.particle_steps)},
-          {"rate_per_s", d.options.rate},
-          {"hours", json_number(d.plan.hours)},
-          {"unknown_loop", d.plan.unknown_cost.empty() ? ordered_json() : ordered_json(printable(d.plan.unknown_cost))}};
+  return {{"particles", json_number(d.options.particles.value_or(d.scene.count()))}, {"particle_steps", json_number(d.plan.particle_steps)},
+      {"rate_per_s", d.options.rate}, {"hours", json_number(d.plan.hours)},
+      {"unknown_loop", d.plan.unknown_cost.empty() ? ordered_json() : ordered_json(printable(d.plan.unknown_cost))}};
 }
 
 ordered_json to_json(const PlannedDeck& d, const std::string& command)
@@ -126,8 +108,7 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command)
   const deck::Plan& plan = d.plan;
   ordered_json pairs = ordered_json::array(), questions = ordered_json::array();
   for (const deck::PairPlan& p : plan.pairs) pairs.push_back(pair_json(p));
-  for (const deck::Question& q : plan.questions)
-    questions.push_back({{"what", printable(q.what)}, {"option", q.option}});
+  for (const deck::Question& q : plan.questions) questions.push_back({{"what", printable(q.what)}, {"option", q.option}});
   ordered_json root;
   root["deck"] = printable(d.scene.deck);
   root["complete"] = plan.complete();
@@ -160,12 +141,9 @@ void print_type(const PlannedDeck& d, int type, const deck::TypeMaterial& m, con
   const double stress = named ? named->yield_stress : m.yield_stress.value_or(-1);
   std::string yield = "yield stress not known";
   if (stress > 0) yield = std::isfinite(stress) ? fmt::format("Y {:.4g} Pa", stress) : "elastic";
-  fmt::print("  type {}{}: E {:.4g} Pa, nu {:.3g}, {}\n", type,
-             named ? " (" + printable(named->name) + ")" : "", *m.youngs_modulus, m.poisson_ratio.value_or(0),
-             yield);
+  fmt::print("  type {}{}: E {:.4g} Pa, nu {:.3g}, {}\n", type, named ? " (" + printable(named->name) + ")" : "", *m.youngs_modulus, m.poisson_ratio.value_or(0), yield);
   if (!named) return;
-  if (differ(named->youngs_modulus, *m.youngs_modulus))
-    fmt::print("    the materials file says E {:.4g} Pa: that is used\n", named->youngs_modulus);
+  if (differ(named->youngs_modulus, *m.youngs_modulus)) fmt::print("    the materials file says E {:.4g} Pa: that is used\n", named->youngs_modulus);
   for (const deck::OtherDensity& other : deck::other_densities(d.scene, d.options))
     if (other.type == type) fmt::print("    {}\n", other.sentence());
 }
@@ -174,13 +152,10 @@ void print_scene(const PlannedDeck& d)
 {
   std::set<int> types;
   for (const deck::PairPlan& p : d.plan.pairs) types.insert(p.meeting.a);
-  fmt::print("{}: {} particle types meet {} walls\n", printable(d.scene.deck), types.size(),
-             d.scene.walls.size());
+  fmt::print("{}: {} particle types meet {} walls\n", printable(d.scene.deck), types.size(), d.scene.walls.size());
   if (d.plan.radius_max > 0)
-    fmt::print(
-        "  radii {:.4g} to {:.4g} m, masses {:.4g} to {:.4g} kg; fall up to {:.4g} m under {:.4g} m/s^2\n",
-        d.plan.radius_min, d.plan.radius_max, d.plan.mass_min, d.plan.mass_max, d.plan.fall,
-        deck::norm(d.scene.gravity));
+    fmt::print("  radii {:.4g} to {:.4g} m, masses {:.4g} to {:.4g} kg; fall up to {:.4g} m under {:.4g} m/s^2\n", d.plan.radius_min, d.plan.radius_max, d.plan.mass_min,
+        d.plan.mass_max, d.plan.fall, deck::norm(d.scene.gravity));
   for (const auto& [type, m] : d.scene.materials)
     if (m.has_moduli()) print_type(d, type, m, named_material(d, type));
 }
@@ -189,14 +164,10 @@ constexpr const char* pair_row = "  {:<9} {:<18} {:>9} {:>9} {:>9} {:>9} {:>9} {
 
 void print_pair(const deck::PairPlan& p)
 {
-  const auto known = [&](double x) {
-    return p.meeting.known_yield && std::isfinite(x) ? fmt::format("{:.3g}", x) : std::string("-");
-  };
-  fmt::print(fmt::runtime(pair_row), types_text(p.meeting),
-             printable(p.meeting.name_a + ":" + p.meeting.name_b), fmt::format("0..{:.3g}", p.speed),
-             known(p.onset), known(p.speed / p.onset), known(p.speed / p.yield_velocity),
-             known(p.damage_number), fmt::format("{:.3g}", p.overlap),
-             p.overlap_basis.empty() ? "-" : p.overlap_basis, verdict(p));
+  const auto known = [&](double x) { return p.meeting.known_yield && std::isfinite(x) ? fmt::format("{:.3g}", x) : std::string("-"); };
+  fmt::print(fmt::runtime(pair_row), types_text(p.meeting), printable(p.meeting.name_a + ":" + p.meeting.name_b), fmt::format("0..{:.3g}", p.speed), known(p.onset),
+      known(p.speed / p.onset), known(p.speed / p.yield_velocity), known(p.damage_number), fmt::format("{:.3g}", p.overlap),
+      p.overlap_basis.empty() ? "-" : p.overlap_basis, verdict(p));
 }
 
 /// Errors of the laws of unlike pairs.
@@ -205,29 +176,20 @@ void print_law_errors(const std::vector<deck::PairPlan>& pairs)
   for (const deck::PairPlan& p : pairs) {
     if (!is_unlike(p)) continue;
     const ComposedError stated = law_error(p);
-    fmt::print("  {}:{}{}: composing the law adds an error of {} (95 % of collisions){}\n", printable(p.meeting.name_a),
-               printable(p.meeting.name_b), p.meeting.wall ? " (deformable wall)" : "",
-               ErrorBound{stated.force, stated.restitution}.text(),
-               stated.restitution > worth_runs && !p.meeting.wall
-                   ? "; mpm table --correct-pairs corrects it by impacts"
-                   : "");
+    fmt::print("  {}:{}{}: composing the law adds an error of {} (95 % of collisions){}\n", printable(p.meeting.name_a), printable(p.meeting.name_b),
+        p.meeting.wall ? " (deformable wall)" : "", ErrorBound{stated.force, stated.restitution}.text(),
+        stated.restitution > worth_runs && !p.meeting.wall ? "; mpm table --correct-pairs corrects it by impacts" : "");
   }
 }
 
 void print_pairs(const PlannedDeck& d)
 {
   if (!d.plan.pairs.empty()) {
-    fmt::print(
-        "pairs that can meet (V: relative normal speed; yield begins at V_on; material 'wall': rigid)\n");
-    fmt::print(fmt::runtime(pair_row), "types", "materials", "V m/s", "V_on m/s", "V/V_on", "V/V_y", "I",
-               "d/R*", "by", "verdict");
+    fmt::print("pairs that can meet (V: relative normal speed; yield begins at V_on; material 'wall': rigid)\n");
+    fmt::print(fmt::runtime(pair_row), "types", "materials", "V m/s", "V_on m/s", "V/V_on", "V/V_y", "I", "d/R*", "by", "verdict");
   }
   for (const deck::PairPlan& p : d.plan.pairs) print_pair(p);
   print_law_errors(d.plan.pairs);
-  for (const deck::PairPlan& p : d.plan.pairs)
-    if (p.speed_basis == "shielded fall")
-      fmt::print("  {}:wall {}: the lowest particles shield the floor from a fall of {:.3g} m/s\n",
-                 p.meeting.a, p.meeting.b, std::sqrt(2 * deck::norm(d.scene.gravity) * d.plan.fall));
 }
 
 /// One line: which tangential law, and why.
@@ -243,21 +205,14 @@ void print_needs(const PlannedDeck& d)
   const deck::Plan& plan = d.plan;
   if (plan.damage_number > 0)
     fmt::print("axes of the law: overlap; velocity {}\n",
-               plan.axis_matters
-                   ? fmt::format("(I up to {:.2g})", plan.damage_number)
-                   : fmt::format("not needed (I stays below {:g})", deck::negligible_damage_number));
+        plan.axis_matters ? fmt::format("(I up to {:.2g})", plan.damage_number) : fmt::format("not needed (I stays below {:g})", deck::negligible_damage_number));
   if (plan.complete() && !plan.pairs.empty()) print_tangential(d);
   if (const deck::PairPlan* pair = plan.stiffest())
-    fmt::print("time step: up to {} s (1/{:g} of the period of types {} at d/R* {:.3g}); the deck has {:.3g} s\n",
-               step_text(plan.time_step), 1 / step_fraction, types_text(pair->meeting), pair->overlap,
-               d.scene.time_step);
-  if (d.scene.stretch > 1)
-    fmt::print("stretch {:g}: in it; the deck's overlaps are {:g} times the d/R* above\n", d.scene.stretch,
-               d.scene.stretch);
+    fmt::print("time step: up to {} s (1/{:g} of the period of types {} at d/R* {:.3g}); the deck has {:.3g} s\n", step_text(plan.time_step), 1 / step_fraction,
+        types_text(pair->meeting), pair->overlap, d.scene.time_step);
+  if (d.scene.stretch > 1) fmt::print("stretch {:g}: in it; the deck's overlaps are {:g} times the d/R* above\n", d.scene.stretch, d.scene.stretch);
   if (!plan.unknown_cost.empty()) fmt::print("cost: not known (the loop of {})\n", printable(plan.unknown_cost));
-  if (plan.particle_steps > 0)
-    fmt::print("cost: {:.3g} particle-steps, {:.3g} hours at {:.3g} a second\n", plan.particle_steps,
-               plan.hours, d.options.rate);
+  if (plan.particle_steps > 0) fmt::print("cost: {:.3g} particle-steps, {:.3g} hours at {:.3g} a second\n", plan.particle_steps, plan.hours, d.options.rate);
 }
 
 /// Deck lines that the plan could not follow, its questions, and the command that makes the law.
@@ -287,7 +242,7 @@ void plan(const PlanRequest& r)
 void define(Options& command)
 {
   const auto r = std::make_shared<PlanRequest>();
-  command.add_option("DECK", r->deck, "LIGGGHTS input script")->required();
+  command.add_option("DECK", r->deck, "LIGGGHTS input script").required();
   r->options.add_to(command, true);
   command.add_flag("--json", r->json, "the plan as JSON");
   command.callback([r] { plan(*r); });
@@ -295,10 +250,8 @@ void define(Options& command)
 
 }  // namespace of_plan
 
-extern const Command plan_command{
-    "plan",
-    "Requirements of a LIGGGHTS deck on a contact law: pairs, speeds, overlaps, time step, cost, and the mpm "
-    "table\n"
+extern const Command plan_command{"plan",
+    "Requirements of a LIGGGHTS deck on a contact law: pairs, speeds, overlaps, time step, cost, and the mpm table\n"
     "command. LIGGGHTS reads the deck (liggghts-mpm). Numbers that the deck lacks are given as options\n"
     "(docs/guide/plan.md). Limits of the laws: docs/guide/limits.md.\n"
     "Example: mpm plan in.hopper --var model mpm --var scene out/scene --materials-file materials.toml",

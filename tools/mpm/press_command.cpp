@@ -10,7 +10,6 @@
 #include "command.hpp"
 #include "material_file/planes_file.hpp"
 #include "option_checks.hpp"
-#include "run_and_report.hpp"
 #include "run_report.hpp"
 #include "solver/runs.hpp"
 
@@ -34,16 +33,13 @@ constexpr double shallowest = 1e-8;
 void check(const PressRequest& r)
 {
   r.run.check();
-  if (r.support != "free" && r.support != "midplane")
-    fail("--support", "unknown support", r.support, "free, midplane");
+  if (r.support != "free" && r.support != "midplane") fail("--support", "unknown support", r.support, "free, midplane");
 }
 
 void check_numbers(const PressRequest& r)
 {
-  require(r.depth >= shallowest && r.depth <= 0.8, "--depth",
-          fmt::format("{:g} (a fraction of the radius)", r.depth), fmt::format("{:g} to 0.8", shallowest));
-  if (r.ramp)
-    require(*r.ramp >= 1 && *r.ramp <= 1e6, "--ramp", fmt::format("{:g} R/c*", *r.ramp), "1 to 1e6");
+  require(r.depth >= shallowest && r.depth <= 0.8, "--depth", fmt::format("{:g} (a fraction of the radius)", r.depth), fmt::format("{:g} to 0.8", shallowest));
+  if (r.ramp) require(*r.ramp >= 1 && *r.ramp <= 1e6, "--ramp", fmt::format("{:g} R/c*", *r.ramp), "1 to 1e6");
 }
 
 PressPlan plan_of(const PressRequest& r, const Particle& particle)
@@ -55,18 +51,15 @@ PressPlan plan_of(const PressRequest& r, const Particle& particle)
   return plan;
 }
 
-void press_by_planes(const PressRequest& r, const Particle& particle, RunIdentity asked,
-                     const std::function<void(const RunIdentity&, const Run&)>& run)
+void press_by_planes(const PressRequest& r, const Particle& particle, RunIdentity asked, const std::function<void(const RunIdentity&, const Run&)>& run)
 {
-  if (r.support != "free")
-    fail("--support", "cannot go with three dimensions: planes hold the body", r.support);
+  if (r.support != "free") fail("--support", "cannot go with three dimensions: planes hold the body", r.support);
   PressPlan plan;
   plan.planes = read_planes(r.planes.empty() ? "pair" : r.planes, "--planes");
   plan.depth = r.depth * particle.radius;
   plan.ramp = r.ramp.value_or(0);
   for (const PressPlane& p : plan.planes)
-    asked.emplace_back("--planes", fmt::format("{} {} {} {}", fmt::join(p.direction, " "),
-                                               p.distance.value_or(-1), p.speed, p.friction));
+    asked.emplace_back("--planes", fmt::format("{} {} {} {}", fmt::join(p.direction, " "), p.distance.value_or(-1), p.speed, p.friction));
   run(asked, [&](const RunOptions& options) { return granulaw::press(particle, plan, {}, options); });
 }
 
@@ -78,45 +71,29 @@ void press(PressRequest r)
   check_numbers(r);
   const PressPlan plan = plan_of(r, m.particle);
   print_setting(r.run, m.particle, 0);
-  const RunIdentity asked{{"command", "press"},
-                          {"--depth", fmt::format("{}", r.depth)},
-                          {"--support", r.support},
-                          {"--ramp", fmt::format("{}", r.ramp.value_or(0))}};
+  const RunIdentity asked{{"command", "press"}, {"--depth", fmt::format("{}", r.depth)}, {"--support", r.support}, {"--ramp", fmt::format("{}", r.ramp.value_or(0))}};
   if (in_three_dimensions(r.run, m.particle))
-    return press_by_planes(r, m.particle, asked, [&](const RunIdentity& identity, const Run& run) {
-      run_and_report(r.run, m, identity, true, run);
-    });
-  run_and_report(r.run, m, asked, true, [&](const RunOptions& options) {
-    return granulaw::press(m.particle, plan, m.partner, options);
-  });
+    return press_by_planes(r, m.particle, asked, [&](const RunIdentity& identity, const Run& run) { run_and_report(r.run, m, identity, true, run); });
+  run_and_report(r.run, m, asked, true, [&](const RunOptions& options) { return granulaw::press(m.particle, plan, m.partner, options); });
 }
 
 void define(Options& command)
 {
   const auto r = std::make_shared<PressRequest>();
   r->run.add_to(command);
-  command.add_option("--depth", r->depth, "deepest overlap, as a fraction of the radius")->required();
-  command.add_option("--support", r->support,
-                     "free (as in a collision) or midplane (as in finite-element references)");
-  command.add_option("--ramp", r->ramp,
-                     "loading time in R/c*, c* = sqrt(E*/rho), 1 to 1e6 (default: long enough for the "
-                     "rate-independent law, 60 or more where the material yields)");
+  command.add_option("--depth", r->depth, "deepest overlap, as a fraction of the radius").required();
+  command.add_option("--support", r->support, "free (as in a collision) or midplane (as in finite-element references)");
   command.add_option(
-      "--planes", r->planes,
-      "three dimensions: planes that press the body, by name (pair, cube, die, bcc, fcc) or in a FILE "
-      "(default: pair). A line of the file for each: nx ny nz [distance speed friction]. The normal n "
-      "points from the body to the plane, in the body's frame. The distance from the origin is in m, or "
-      "touch. "
-      "The speed is the plane's way over --depth (1), friction is Coulomb's coefficient (0)");
+      "--ramp", r->ramp, "loading time in R/c*, c* = sqrt(E*/rho), 1 to 1e6 (default: long enough for the rate-independent law, 60 or more where the material yields)");
+  command.add_option("--planes", r->planes,
+      "three dimensions: planes that press the body, by name (pair, cube, die, bcc, fcc) or in a FILE (default: pair). A line of the file for each: nx ny nz [distance speed friction]. The normal n points from the body to the plane, in the body's frame. The distance from the origin is in m, or touch. The speed is the plane's way over --depth (1), friction is Coulomb's coefficient (0)");
   command.callback([r] { press(*r); });
 }
 
 }  // namespace of_press
 
-extern const Command press_command{
-    "press",
-    "Presses a particle slowly onto a wall or another particle, and takes it off again: the quasi-static "
-    "law.\n"
+extern const Command press_command{"press",
+    "Presses a particle slowly onto a wall or another particle, and takes it off again: the quasi-static law.\n"
     "Example: mpm press materials.toml --particle grain --depth 0.02 --support midplane -o trace.csv",
     of_press::define};
 

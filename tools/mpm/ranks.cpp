@@ -28,8 +28,7 @@ struct Launched
 {
   // Open MPI; MPICH, Intel MPI and srun --mpi=pmi2; srun --mpi=pmix
   int rank = from_environment({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"}, 0);
-  int size = from_environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"},
-                              std::getenv("PMIX_RANK") ? from_environment({"SLURM_STEP_NUM_TASKS"}, 1) : 1);
+  int size = from_environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}, std::getenv("PMIX_RANK") ? from_environment({"SLURM_STEP_NUM_TASKS"}, 1) : 1);
 };
 
 const Launched& launched()
@@ -58,17 +57,15 @@ void join_ranks(const std::string& command, bool shares_runs)
 {
   if (ranks() == 1) return;
   if (!shares_runs)
-    fail(fmt::format("mpm {}", command),
-         "runs in one process: start it without mpirun (mpm table shares its runs among ranks)",
-         fmt::format("{} processes", ranks()), "1");
+    fail(fmt::format("mpm {}", command), "runs in one process: start it without mpirun (mpm table shares its runs among ranks)", fmt::format("{} processes", ranks()),
+        "1");
 #ifdef GRANULAW_HAS_MPI
   session.emplace();
   if (session->rank() != 0) ask_nothing_of_units();
   if (session->rank() != 0 && !std::freopen("/dev/null", "w", stdout)) fail("/dev/null", "cannot be opened");
 #else
-  fail(fmt::format("mpm {}", command),
-       "this program is built without MPI: start it without mpirun (--jobs sets the number of threads)",
-       fmt::format("{} processes", ranks()), "1");
+  fail(fmt::format("mpm {}", command), "this program is built without MPI: start it without mpirun (--jobs sets the number of threads)",
+      fmt::format("{} processes", ranks()), "1");
 #endif
 }
 

@@ -8,10 +8,10 @@
 #include "base/scales.hpp"
 #include "collision_report.hpp"
 #include "json_output.hpp"
+#include "run_files/trace_file.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
 #include "solver/runs.hpp"
 #include "solver/shape/shape.hpp"
-#include "run_files/trace_file.hpp"
 
 namespace granulaw {
 
@@ -28,8 +28,7 @@ nlohmann::ordered_json plane_json(const RunResult& result, std::size_t k)
 {
   const PlaneTrace& plane = result.planes[k];
   double delta = 0, force = 0;
-  for (const PlaneSample& p : plane.samples)
-    delta = std::max(delta, p.delta), force = std::max(force, p.force);
+  for (const PlaneSample& p : plane.samples) delta = std::max(delta, p.delta), force = std::max(force, p.force);
   nlohmann::ordered_json out;
   out["normal"] = {-plane.normal[0], -plane.normal[1], -plane.normal[2]};  // from the body to the plane
   out["delta_max_m"] = delta;
@@ -61,27 +60,19 @@ void print_three_dimensions(const RunResult& result, const CentreMotion& centre)
 {
   if (result.rebound) {
     const Rebound& rebound = *result.rebound;
-    fmt::print("centre after, normal           {:.5g} m/s, away from the wall ({:.4f} of its approach)\n",
-               rebound.normal * centre.approach, rebound.normal);
-    fmt::print("centre after, tangential       {:.5g} m/s, along +x (before: {:.5g})\n",
-               centre.tangential_after, centre.tangential);
-    fmt::print("spin after, about x, y, z      {:.5g}, {:.5g}, {:.5g} rad/s\n", rebound.spin[0],
-               rebound.spin[1], rebound.spin[2]);
-    if (centre.contacts > 1)
-      fmt::print("contacts                       {}, of which e and the works are of the first\n",
-                 centre.contacts);
-    fmt::print("impulse, normal, tangential    {:.5g} N s, {:.5g} N s\n", rebound.impulse_normal,
-               rebound.impulse_tangential);
+    fmt::print("centre after, normal           {:.5g} m/s, away from the wall ({:.4f} of its approach)\n", rebound.normal * centre.approach, rebound.normal);
+    fmt::print("centre after, tangential       {:.5g} m/s, along +x (before: {:.5g})\n", centre.tangential_after, centre.tangential);
+    fmt::print("spin after, about x, y, z      {:.5g}, {:.5g}, {:.5g} rad/s\n", rebound.spin[0], rebound.spin[1], rebound.spin[2]);
+    if (centre.contacts > 1) fmt::print("contacts                       {}, of which e and the works are of the first\n", centre.contacts);
+    fmt::print("impulse, normal, tangential    {:.5g} N s, {:.5g} N s\n", rebound.impulse_normal, rebound.impulse_tangential);
     return;
   }
   for (std::size_t k = 0; k < result.planes.size(); ++k)
-    fmt::print("plane {:2} towards ({:.3g}, {:.3g}, {:.3g})  {:.5g} N at depth\n", k + 1,
-               -result.planes[k].normal[0], -result.planes[k].normal[1], -result.planes[k].normal[2],
-               force_at_depth(result, k));
+    fmt::print("plane {:2} towards ({:.3g}, {:.3g}, {:.3g})  {:.5g} N at depth\n", k + 1, -result.planes[k].normal[0], -result.planes[k].normal[1],
+        -result.planes[k].normal[2], force_at_depth(result, k));
 }
 
-void print_as_json(const RunRequest& r, const Particle& particle, const RunResult& result,
-                   const CentreMotion& centre)
+void print_as_json(const RunRequest& r, const Particle& particle, const RunResult& result, const CentreMotion& centre)
 {
   const RunSummary& s = result.summary;
   nlohmann::ordered_json out = collision_json(s);
@@ -120,8 +111,7 @@ void print_setting(const RunRequest& r, const Particle& particle, double velocit
   }
 }
 
-void report(const RunRequest& r, const Particle& particle, const RunResult& result,
-            const CentreMotion& centre)
+void report(const RunRequest& r, const Particle& particle, const RunResult& result, const CentreMotion& centre)
 {
   if (!r.output.empty()) write_trace(result, r.output);
   const RunSummary& s = result.summary;
@@ -132,8 +122,7 @@ void report(const RunRequest& r, const Particle& particle, const RunResult& resu
     fmt::print("estimated error of F and e     not known: no coarser grid is another\n");
   else if (s.error_estimate > 0)
     fmt::print("estimated error of F and e     {:.2g}\n", s.error_estimate);
-  fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps,
-             s.cpu_s, 1e-6 * s.point_updates_per_s);
+  fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps, s.cpu_s, 1e-6 * s.point_updates_per_s);
   if (!r.output.empty()) fmt::print("wrote {}\n", r.output);
   if (!r.fields.empty()) fmt::print("wrote {}\n", r.fields);
 }

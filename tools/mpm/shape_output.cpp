@@ -6,7 +6,7 @@
 #include <set>
 
 #include "json_output.hpp"
-#include "python_script.hpp"
+#include "own_files.hpp"
 
 namespace granulaw {
 
@@ -58,10 +58,8 @@ nlohmann::ordered_json as_json(const ShapeCertificate& certificate)
   if (certificate.has_body()) {
     const auto with_body = &OrientationCheck::law_with_body;
     const ErrorQuantiles body_force = certificate.force(with_body), body_e = certificate.restitution(with_body);
-    out["with_body"] = {{"force_error_median", body_force.median},
-                        {"force_error_95", body_force.largest},
-                        {"restitution_error_median", body_e.median},
-                        {"restitution_error_95", body_e.largest}};
+    out["with_body"] = {{"force_error_median", body_force.median}, {"force_error_95", body_force.largest}, {"restitution_error_median", body_e.median},
+        {"restitution_error_95", body_e.largest}};
   }
   out["solver_error"] = certificate.solver_error;
   out["mirrors"] = certificate.mirrors;
@@ -72,28 +70,21 @@ nlohmann::ordered_json as_json(const ShapeCertificate& certificate)
 void print_shape(const std::string& name, const ShapeCertificate& certificate)
 {
   const ErrorQuantiles force = certificate.force(), e = certificate.restitution();
-  fmt::print("{}: the law of spheres at the local radius sqrt(R' R'') answers {:.0f} % of {}\n", name,
-             100 * certificate.covered(), question_text(certificate));
+  fmt::print("{}: the law of spheres at the local radius sqrt(R' R'') answers {:.0f} % of {}\n", name, 100 * certificate.covered(), question_text(certificate));
   if (certificate.covered() > 0)
-    fmt::print(
-        "{}: F_max off by {:.2g} % in the median, within {:.2g} % in 95 %; e by {:.2g} and {:.2g}; solver "
-        "error {:.2g} %\n",
-        name, 100 * force.median, 100 * force.largest, e.median, e.largest, 100 * certificate.solver_error);
+    fmt::print("{}: F_max off by {:.2g} % in the median, within {:.2g} % in 95 %; e by {:.2g} and {:.2g}; solver error {:.2g} %\n", name, 100 * force.median,
+        100 * force.largest, e.median, e.largest, 100 * certificate.solver_error);
   if (certificate.covered() > 0 && certificate.has_body()) {
     const auto with_body = &OrientationCheck::law_with_body;
     const ErrorQuantiles body_force = certificate.force(with_body), body_e = certificate.restitution(with_body);
-    fmt::print("{}: with the body behind the contact (bodyCompliance on) F_max by {:.2g} and {:.2g} %, e by {:.2g} and {:.2g}\n",
-               name, 100 * body_force.median, 100 * body_force.largest, body_e.median, body_e.largest);
+    fmt::print("{}: with the body behind the contact (bodyCompliance on) F_max by {:.2g} and {:.2g} %, e by {:.2g} and {:.2g}\n", name, 100 * body_force.median,
+        100 * body_force.largest, body_e.median, body_e.largest);
   }
   if (certificate.covered() < 1)
-    fmt::print(
-        "{}: at its edges, corners and flats no sphere is like the contact: the runs' own F_max and e "
-        "stand in the certificate\n",
-        name);
+    fmt::print("{}: at its edges, corners and flats no sphere is like the contact: the runs' own F_max and e stand in the certificate\n", name);
 }
 
-void draw_shape(const char* command, const std::string& name, const ShapeCertificate& certificate,
-                const std::string& picture)
+void draw_shape(const char* command, const std::string& name, const ShapeCertificate& certificate, const std::string& picture)
 {
   nlohmann::ordered_json input = as_json(certificate);
   input["name"] = name, input["orientations"] = question_text(certificate);

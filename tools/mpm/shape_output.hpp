@@ -14,7 +14,6 @@ nlohmann::ordered_json as_json(const ShapeCertificate& certificate);
 void print_shape(const std::string& name, const ShapeCertificate& certificate);
 
 /// Draws the map of its errors over the orientations: NAME.png, .pdf or .svg. `command` leads messages.
-void draw_shape(const char* command, const std::string& name, const ShapeCertificate& certificate,
-                const std::string& picture);
+void draw_shape(const char* command, const std::string& name, const ShapeCertificate& certificate, const std::string& picture);
 
 }  // namespace granulaw

@@ -8,12 +8,12 @@
 #include <memory>
 #include <optional>
 
-#include "atlas_path.hpp"
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "characterise/body/law_body.hpp"
 #include "characterise/build/build_law.hpp"
 #include "characterise/file/make_law_file.hpp"
+#include "collision_report.hpp"
 #include "command.hpp"
 #include "deck_options.hpp"
 #include "farm_options.hpp"
@@ -23,7 +23,7 @@
 #include "law/range.hpp"
 #include "material_file/materials_file.hpp"
 #include "option_checks.hpp"
-#include "percent.hpp"
+#include "own_files.hpp"
 #include "ranks.hpp"
 #include "shape_output.hpp"
 #include "terminal.hpp"
@@ -68,16 +68,14 @@ LawFileRequest law_file_request(const TableRequest& r, const Atlas* atlas)
   request.materials = read_materials(r.materials);
   for (const std::string& text : r.pairs) request.pairs.push_back(new_pair(text));
   request.atlas = atlas;
-  request.words = {"--pair", "--slowest", "--damage-number",
-                   r.no_atlas ? "--no-atlas" : "there is no atlas beside the program"};
+  request.words = {"--pair", "--slowest", "--damage-number", r.no_atlas ? "--no-atlas" : "there is no atlas beside the program"};
   return request;
 }
 
 MadeLawFile make(const LawFilePlan& plan, Farm* farm)
 {
   ProgressBar bar(rank() == 0);
-  MadeLawFile file =
-      make_law_file(plan, farm, [&](double done, const std::string& what) { bar.update(done, what); });
+  MadeLawFile file = make_law_file(plan, farm, [&](double done, const std::string& what) { bar.update(done, what); });
   file.law.provenance["command"] = command_line;
   if (farm) file.law.provenance["ranks"] = fmt::format("{}", ranks());
   return file;
@@ -88,10 +86,8 @@ void print_expected(const LawFilePlan& plan)
 {
   for (const auto& [name, body] : plan.bodies) {
     if (body.from_atlas()) continue;
-    const ExpectedRuns runs =
-        expected_runs(body.body->material, body.body->characterised, plan.build_options());
-    fmt::print("{}: by the solver ({}): {} runs to begin with, about {:.0f} s of CPU\n", name,
-               body.why_runs, runs.first, std::max(1.0, runs.first_cpu_s));
+    const ExpectedRuns runs = expected_runs(body.body->material, body.body->characterised, plan.build_options());
+    fmt::print("{}: by the solver ({}): {} runs to begin with, about {:.0f} s of CPU\n", name, body.why_runs, runs.first, std::max(1.0, runs.first_cpu_s));
   }
   std::fflush(stdout);
 }
@@ -119,12 +115,8 @@ void print_not_composed(const LawFilePlan::Pair& pair, const MadeLawFile& file)
   if (missing.empty()) return;
   const auto material = [&](const std::string& name) { return file.law.bodies.at(name).material; };
   const std::string& yielding = yields_first(material(pair.a), material(pair.b)) ? pair.a : pair.b;
-  fmt::print(
-      "{}: cannot be composed where the partner's radius over that of '{}' is {:.4g} (mpm info says why): "
-      "{}\n",
-      pair.name(), yielding, fmt::join(missing, ", "),
-      has_own_laws(pair, file.law) ? "the law of the nearest ratio stands in, within the pair rule's error"
-                                   : "the pair rule stands in");
+  fmt::print("{}: cannot be composed where the partner's radius over that of '{}' is {:.4g} (mpm info says why): {}\n", pair.name(), yielding, fmt::join(missing, ", "),
+      has_own_laws(pair, file.law) ? "the law of the nearest ratio stands in, within the pair rule's error" : "the pair rule stands in");
 }
 
 /// Origin of the pair's laws, if it is worth a line.
@@ -132,8 +124,7 @@ void print_origin(const LawFilePlan::Pair& pair, const MadeLawFile& file)
 {
   print_not_composed(pair, file);
   if (!has_own_laws(pair, file.law)) {
-    if (pair.worth_own_law)
-      fmt::print("{}: follows the pair rule; --own-law computes a two-body law\n", pair.name());
+    if (pair.worth_own_law) fmt::print("{}: follows the pair rule; --own-law computes a two-body law\n", pair.name());
     return;
   }
   if (pair.a == pair.b || !pair.own_law) return;
@@ -141,8 +132,7 @@ void print_origin(const LawFilePlan::Pair& pair, const MadeLawFile& file)
   if (c.origin != composed_origin)
     fmt::print("{}: by {} runs of two bodies of equal radii\n", pair.name(), file.runs.at(pair.name()).made);
   else if (c.verification_impacts > 0)
-    fmt::print("{}: corrected by {} impacts of the two bodies\n", pair.name(),
-               file.runs.at(pair.name()).made);
+    fmt::print("{}: corrected by {} impacts of the two bodies\n", pair.name(), file.runs.at(pair.name()).made);
   else
     fmt::print("{}: not corrected, as impacts of the two bodies failed: mpm info says why\n", pair.name());
 }
@@ -152,14 +142,11 @@ void print_certificate(const std::string& name, const BodyLaw& body)
   const Certificate& c = body.certificate;
   fmt::print("{}: to delta/R = {:.3g}", name, body.curve.end());
   if (body.curve.axis()) fmt::print(" and I = rho V^2/Y = {:.3g}", c.damage_number_max);
-  if (c.origin != "atlas")
-    fmt::print("; held-out e {}, scatter {}", percent(c.held_out_error), percent(c.residual_scatter));
+  if (c.origin != "atlas") fmt::print("; held-out e {}, scatter {}", percent(c.held_out_error), percent(c.residual_scatter));
   fmt::print("; solver error of a computation {}", percent(c.solver_error_force));
   if (c.verification_impacts > 0)
-    fmt::print("; {:.0f} impacts not sampled: {}", c.verification_impacts,
-               errors_text(c.verification_error_force, c.verification_error_restitution));
-  if (!body.curve.axis() && std::isfinite(c.damage_number_max))
-    fmt::print("; quasi-static up to I = {:.3g}", c.damage_number_max);
+    fmt::print("; {:.0f} impacts not sampled: {}", c.verification_impacts, errors_text(c.verification_error_force, c.verification_error_restitution));
+  if (!body.curve.axis() && std::isfinite(c.damage_number_max)) fmt::print("; quasi-static up to I = {:.3g}", c.damage_number_max);
   fmt::print("\n");
 }
 
@@ -167,17 +154,11 @@ void print_warnings(const LawFilePlan& plan, const MadeLawFile& file)
 {
   for (const LawFilePlan::Pair& pair : plan.pairs)
     if (!has_own_laws(pair, file.law) && pair.is_extrapolated())
-      fmt::print(stderr,
-                 "mpm: what the pair rule costs {} is extrapolated: the partner is softer than was measured "
-                 "(docs/guide/pairs.md)\n",
-                 pair.name());
+      fmt::print(stderr, "mpm: what the pair rule costs {} is extrapolated: the partner is softer than was measured (docs/guide/pairs.md)\n", pair.name());
   for (const auto& [name, runs] : file.runs)
     if (runs.sampling_error > plan.request.tolerance)
-      fmt::print(
-          stderr,
-          "mpm: {}: sampling ended before --tolerance {:g} was reached: error where nothing was sampled "
-          "{:.2g} (in the law's certificate)\n",
-          name, plan.request.tolerance, runs.sampling_error);
+      fmt::print(stderr, "mpm: {}: sampling ended before --tolerance {:g} was reached: error where nothing was sampled {:.2g} (in the law's certificate)\n", name,
+          plan.request.tolerance, runs.sampling_error);
 }
 
 void report(const TableRequest& r, const LawFilePlan& plan, const MadeLawFile& file, const Farm* farm)
@@ -194,8 +175,7 @@ void report(const TableRequest& r, const LawFilePlan& plan, const MadeLawFile& f
       if (own.law.certificate.origin != composed_origin) print_certificate(name, own.law);
   fmt::print("error bounds: 95 % of head-on impacts lie within\n");
   for (const LawPair& pair : file.law.pairs)
-    for (const PairLine& line : pair_lines(file.law, pair))
-      fmt::print("{}:{}  {}\n", pair.a, pair.b, line.text());
+    for (const PairLine& line : pair_lines(file.law, pair)) fmt::print("{}:{}  {}\n", pair.a, pair.b, line.text());
   if (farm) print_count(farm->count());
   print_warnings(plan, file);
 }
@@ -211,12 +191,8 @@ void warn_of_fast_pairs(const Law& law, const deck::Plan& plan)
     double least = std::numeric_limits<double>::infinity();
     for (const PairLine& line : pair_lines(law, *pair)) least = std::min(least, line.least_damage_number_max);
     if (p.damage_number > least * (1 + 1e-9))
-      fmt::print(stderr,
-                 "mpm: {}:{} reaches I = {:.3g} in the deck, and the error bound of its law holds to {:.3g}: "
-                 "beyond, "
-                 "no bound is stated{}\n",
-                 printable(a), printable(b), p.damage_number, least,
-                 a != b && b != wall_name ? " (--own-law may raise it)" : "");
+      fmt::print(stderr, "mpm: {}:{} reaches I = {:.3g} in the deck, and the error bound of its law holds to {:.3g}: beyond, no bound is stated{}\n", printable(a),
+          printable(b), p.damage_number, least, a != b && b != wall_name ? " (--own-law may raise it)" : "");
   }
 }
 
@@ -244,9 +220,7 @@ void make_table_for_deck(TableRequest& r, const Options& command)
     if (rank() == 0) fmt::print("{}: no pair of the deck yields: Hertz suffices, no law is written\n", printable(r.deck));
     return;
   }
-  if (rank() == 0)
-    fmt::print("{}: needs {} to delta/R = {:.3g} and I = {:.3g}\n", printable(r.deck),
-               fmt::join(r.pairs, ", "), r.file.depth, r.file.damage_number);
+  if (rank() == 0) fmt::print("{}: needs {} to delta/R = {:.3g} and I = {:.3g}\n", printable(r.deck), fmt::join(r.pairs, ", "), r.file.depth, r.file.damage_number);
   make_table(r, &plan);
 }
 
@@ -254,73 +228,61 @@ void add_range_options(Options& command, LawFileRequest& file)
 {
   command
       .add_option("--tolerance", file.tolerance,
-                  "relative error of force and e (of an e below 0.5, over 0.5). A velocity axis of a smaller effect "
-                  "is left out,\n"
-                  "and the error bound states that effect")
-      ->check(from_to(1e-4, 0.5))
-      ->capture_default_str();
-  command.add_option("--depth", file.depth, "largest overlap over the radius, up to 0.5")
-      ->check(above_zero_to(deepest_law))
-      ->capture_default_str();
+          "relative error of force and e (of an e below 0.5, over 0.5). A velocity axis of a smaller effect is left out,\n"
+          "and the error bound states that effect")
+      .check(from_to(1e-4, 0.5))
+      .capture_default_str();
+  command.add_option("--depth", file.depth, "largest overlap over the radius, up to 0.5").check(above_zero_to(deepest_law)).capture_default_str();
   command
       .add_option("--damage-number,--inertia", file.damage_number,
-                  "largest damage number I = rho V^2/Y (Johnson's; it has nothing to do with breakage), up to 0.09;\n0: a quasi-static law")
-      ->check(from_to(0, fastest_law))
-      ->capture_default_str();
+          "largest damage number I = rho V^2/Y (Johnson's; it has nothing to do with breakage), up to 0.09;\n0: a quasi-static law")
+      .check(from_to(0, fastest_law))
+      .capture_default_str();
   command
       .add_option("--slowest", file.slowest,
-                  "lowest impact speed, m/s on a wall, that the law of a rate-dependent particle covers. "
-                  "Slower impacts use\n"
-                  "this speed (default: a fiftieth of the fastest, or the onset of yield)")
-      ->check(above_zero());
-  command
-      .add_option("--radius-ratio", file.radius_ratio,
-                  "largest ratio of two spheres' radii: pairs get a law for each ratio up to it")
-      ->check(from_to(1, 10))
-      ->capture_default_str();
+          "lowest impact speed, m/s on a wall, that the law of a rate-dependent particle covers. Slower impacts use\n"
+          "this speed (default: a fiftieth of the fastest, or the onset of yield)")
+      .check(above_zero());
+  command.add_option("--radius-ratio", file.radius_ratio, "largest ratio of two spheres' radii: pairs get a law for each ratio up to it")
+      .check(from_to(1, 10))
+      .capture_default_str();
   command.add_flag("--thick-walls,!--no-thick-walls", file.thick_walls,
-                   "also laws for deformable walls: of either material of a pair, and of the particle's "
-                   "material (default:\n"
-                   "yes; --deck: if it has such walls)");
+      "also laws for deformable walls: of either material of a pair, and of the particle's material (default:\n"
+      "yes; --deck: if it has such walls)");
   command.add_flag("--correct-pairs,--own-law", file.own_laws,
-                   "correct composed laws by impacts of the two bodies, where the pair rule is worse than\n"
-                   "--tolerance. Without the atlas: two-body laws, at equal radii");
+      "correct composed laws by impacts of the two bodies, where the pair rule is worse than\n"
+      "--tolerance. Without the atlas: two-body laws, at equal radii");
 }
 
 void add_shape_options(Options& command, ShapeQuestion& shapes)
 {
-  command
-      .add_option("--directions,--orientations", shapes.directions,
-                  "of a particle with a shape: directions of its certificate, over all that its mirror "
-                  "planes leave")
-      ->check(whole_from_to(4, 10000))
-      ->capture_default_str();
+  command.add_option("--directions,--orientations", shapes.directions, "of a particle with a shape: directions of its certificate, over all that its mirror planes leave")
+      .check(whole_from_to(4, 10000))
+      .capture_default_str();
   command
       .add_option("--velocity", shapes.velocities,
-                  "of a particle with a shape: speeds of the certificate's impacts, m/s (default: where rho\n"
-                  "V^2/Y is 0.0025)")
-      ->list()
-      ->check(above_zero());
+          "of a particle with a shape: speeds of the certificate's impacts, m/s (default: where rho\n"
+          "V^2/Y is 0.0025)")
+      .list()
+      .check(above_zero());
 }
 
 void define(Options& command)
 {
   const auto r = std::make_shared<TableRequest>();
-  command.add_option("MATERIALS", r->materials, "TOML file with [material.NAME]")->required();
-  const Option deck = command.add_option(
-      "--deck", r->deck, "LIGGGHTS deck: only the pairs, speeds and overlaps that it can reach (mpm plan)");
+  command.add_option("MATERIALS", r->materials, "TOML file with [material.NAME]").required();
+  const Option deck = command.add_option("--deck", r->deck, "LIGGGHTS deck: only the pairs, speeds and overlaps that it can reach (mpm plan)");
   r->scene.add_to(command, false, deck);
   command
-      .add_option(
-          "--pair", r->pairs,
+      .add_option("--pair", r->pairs,
           "a:b or a:wall (rigid), names of materials or particles; several; default: every pair of\n"
           "materials")
-      ->list();
+      .list();
   add_range_options(command, r->file);
   add_shape_options(command, r->file.shapes);
   command.add_flag("--no-atlas", r->no_atlas, "compute every law by the solver");
   r->farm.add_to(command);
-  command.add_option("-o,--output", r->output, "law file, NAME.h5")->required();
+  command.add_option("-o,--output", r->output, "law file, NAME.h5").required();
   command.callback([r, command] {
     if (r->deck.empty())
       make_table(*r);
@@ -331,19 +293,14 @@ void define(Options& command)
 
 }  // namespace of_table
 
-extern const Command table_command{
-    "table",
-    "Makes the contact laws of a materials file, one law file for LIGGGHTS. A homogeneous sphere that "
-    "hardens\n"
-    "linearly or not at all comes from the atlas at once (--no-atlas: computed anew). Other hardening "
-    "laws,\n"
+extern const Command table_command{"table",
+    "Makes the contact laws of a materials file, one law file for LIGGGHTS. A homogeneous sphere that hardens\n"
+    "linearly or not at all comes from the atlas at once (--no-atlas: computed anew). Other hardening laws,\n"
     "rate dependence, layers, inclusions and profiles are computed by the solver: name the particle in\n"
     "--pair.\n"
-    "A particle with a shape in three dimensions gets its material's law, for the radius of curvature at "
-    "the\n"
+    "A particle with a shape in three dimensions gets its material's law, for the radius of curvature at the\n"
     "contact, and a certificate.\n"
-    "Finished runs are stored in a folder (--cache). A stopped build goes on where it stopped, and one "
-    "with a\n"
+    "Finished runs are stored in a folder (--cache). A stopped build goes on where it stopped, and one with a\n"
     "wider range reuses them. The folder may be removed at any time.\n"
     "mpirun -np N mpm table ... shares the runs among N processes; the law is the same.\n"
     "Example: mpm table materials.toml --pair powder:powder --pair powder:wall -o law.h5",

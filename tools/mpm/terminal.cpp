@@ -71,12 +71,9 @@ void ProgressBar::update(double done, const std::string& what)
   if (!visible_ || (now - last_ < every_ && !costs_much)) return;
   last_ = now, is_first_ = false;
   const std::string remains = duration_text(left) + " left";
-  if (!is_terminal_)
-    return fmt::print(stderr, "mpm: {:.0f} % after {:.0f} s, {}{}{}\n", 100 * done, seconds, remains,
-                      what.empty() ? "" : ": ", what);
+  if (!is_terminal_) return fmt::print(stderr, "mpm: {:.0f} % after {:.0f} s, {}{}{}\n", 100 * done, seconds, remains, what.empty() ? "" : ": ", what);
   const auto width = static_cast<int>(20 * std::clamp(done, 0.0, 1.0));
-  fmt::print(stderr, "\r[{:20}] {:3.0f} % {:4.0f} s, {:15} {:24.24}",
-             std::string(static_cast<std::size_t>(width), '='), 100 * done, seconds, remains, what);
+  fmt::print(stderr, "\r[{:20}] {:3.0f} % {:4.0f} s, {:15} {:24.24}", std::string(static_cast<std::size_t>(width), '='), 100 * done, seconds, remains, what);
   std::fflush(stderr);
 }
 

@@ -19,8 +19,10 @@ std::set<std::string> without_numbers(const std::vector<std::string>& files)
     std::string name;
     for (const char ch : file) {
       const bool digit = ch >= '0' && ch <= '9';
-      if (!digit) name += ch;
-      else if (name.empty() || name.back() != '*') name += '*';
+      if (!digit)
+        name += ch;
+      else if (name.empty() || name.back() != '*')
+        name += '*';
     }
     names.insert(name);
   }
@@ -44,8 +46,7 @@ Checked check(const Scene& scene, const fs::path& folder, double step_factor)
   const std::string name = fs::path(scene.deck).filename().string();
   const ShortRun before = short_run(scene.folder, words_of(scene.folder.empty() ? scene.deck : name, scene.presets), steps);
   const double done = before.ended ? before.steps : static_cast<double>(steps);
-  const ShortRun after =
-      short_run(folder.string(), words_of(name, scene.presets), static_cast<long long>(std::ceil(done * step_factor)));
+  const ShortRun after = short_run(folder.string(), words_of(name, scene.presets), static_cast<long long>(std::ceil(done * step_factor)));
   return {before, after, alone(before.files, after.files), alone(after.files, before.files)};
 }
 

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "base/error.hpp"
+#include "deck/digits.hpp"
 #include "deck/soften.hpp"
 
 namespace granulaw::deck {
@@ -37,17 +38,11 @@ double box_height(const Scene& scene)
   return height;
 }
 
-double two_digits_up(double x)
-{
-  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
-  return std::stod(fmt::format("{:.2g}", std::ceil(x / unit * (1 - 1e-12)) * unit));
-}
-
 /// `allowed`: of the real contacts.
 void set_step_factor(Conversion& conversion, double deck_step, double allowed)
 {
   const double step = conversion.stretch * allowed;
-  if (step < deck_step) conversion.step_factor = two_digits_up(deck_step / step);
+  if (step < deck_step) conversion.step_factor = rounded_up(deck_step / step);
 }
 
 }  // namespace
@@ -60,14 +55,11 @@ std::set<int> types_of_particles(const Scene& scene)
   return types;
 }
 
-std::vector<std::string> names_of_types(const Scene& scene, const std::vector<std::string>& given, const std::string& source,
-                                        const std::vector<std::string>& known)
+std::vector<std::string> names_of_types(const Scene& scene, const std::vector<std::string>& given, const std::string& source, const std::vector<std::string>& known)
 {
   const auto types = static_cast<std::size_t>(std::max(1, scene.types));
   if (!given.empty()) {
-    if (given.size() != types)
-      fail("--materials", fmt::format("{} has {} atom types, each needs one name", scene.deck, types),
-           fmt::format("{}", fmt::join(given, ",")));
+    if (given.size() != types) fail("--materials", fmt::format("{} has {} atom types, each needs one name", scene.deck, types), fmt::format("{}", fmt::join(given, ",")));
     return given;
   }
   if (scene.material_names.size() == types) return scene.material_names;
@@ -75,13 +67,11 @@ std::vector<std::string> names_of_types(const Scene& scene, const std::vector<st
   if (known.size() != 1) {
     std::vector<std::string> asked;
     for (const int type : of_particles) asked.push_back(describe_type(scene, type));
-    throw Unanswered(printable(fmt::format(
-        "{}: which material of {} ({}) is {}? Give one name for each of the {} atom types by --materials NAME,NAME,...", scene.deck,
+    throw Unanswered(printable(fmt::format("{}: which material of {} ({}) is {}? Give one name for each of the {} atom types by --materials NAME,NAME,...", scene.deck,
         source, fmt::join(known, ", "), fmt::join(asked, ", "), types)));
   }
   std::vector<std::string> names;
-  for (std::size_t t = 1; t <= types; ++t)
-    names.push_back(of_particles.contains(static_cast<int>(t)) ? known[0] : fmt::format("wall{}", t));
+  for (std::size_t t = 1; t <= types; ++t) names.push_back(of_particles.contains(static_cast<int>(t)) ? known[0] : fmt::format("wall{}", t));
   return names;
 }
 
@@ -107,8 +97,7 @@ DefaultAnswer default_answer(const Scene& scene, const Plan& plan, const std::st
 std::vector<Question> open_questions(const Plan& plan)
 {
   std::vector<Question> open;
-  std::copy_if(plan.questions.begin(), plan.questions.end(), std::back_inserter(open),
-               [](const Question& q) { return q.option != "--particles N"; });
+  std::copy_if(plan.questions.begin(), plan.questions.end(), std::back_inserter(open), [](const Question& q) { return q.option != "--particles N"; });
   return open;
 }
 
@@ -119,7 +108,7 @@ std::string question_sentence(const Scene& scene, const Plan& plan, const std::v
     const std::string name = q.option.substr(0, q.option.find(' '));
     const DefaultAnswer by_deck = default_answer(scene, plan, q.option);
     text += fmt::format("{}not in the deck: {}: give it by {}{}", text.empty() ? "" : "; ", q.what, q.option,
-                        by_deck.value > 0 ? fmt::format(" ({} {:.3g}: {})", name, by_deck.value, by_deck.reason) : "");
+        by_deck.value > 0 ? fmt::format(" ({} {:.3g}: {})", name, by_deck.value, by_deck.reason) : "");
   }
   return printable(fmt::format("{}: {}", scene.deck, text));
 }
@@ -134,7 +123,7 @@ StepChoice choose_time_step(Conversion& conversion, const PlannedDeck& d, bool m
     c.bound = may_stretch ? "liquid bridges and heat, which have no form for a stretched law" : "--no-stretch";
   } else {
     const Softening s = soften(d.scene, d.plan, d.options, {});
-    conversion.stretch = std::clamp(two_digits_up(c.deck_step / allowed), 1.0, s.stretch);
+    conversion.stretch = std::clamp(rounded_up(c.deck_step / allowed), 1.0, s.stretch);
     c.bound = s.bound;
   }
   set_step_factor(conversion, c.deck_step, allowed);
@@ -169,8 +158,7 @@ void choose_moduli(Conversion& conversion, const PlannedDeck& d, const std::vect
   for (int type = 1; type <= d.scene.types; ++type) {
     if (conversion.youngs_modulus.contains(type)) continue;
     const auto of_deck = d.scene.materials.find(type);
-    if (of_deck != d.scene.materials.end() && of_deck->second.youngs_modulus)
-      conversion.youngs_modulus[type] = std::min(*of_deck->second.youngs_modulus * rise, 1e12);
+    if (of_deck != d.scene.materials.end() && of_deck->second.youngs_modulus) conversion.youngs_modulus[type] = std::min(*of_deck->second.youngs_modulus * rise, 1e12);
   }
 }
 

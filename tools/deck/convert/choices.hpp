@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "deck/convert/convert.hpp"
-#include "deck/planned_deck.hpp"
+#include "deck/plan.hpp"
 
 // Choices of a conversion that the deck does not make itself: names of materials, answers, time step, moduli.
 namespace granulaw::deck {
@@ -16,8 +16,7 @@ std::set<int> types_of_particles(const Scene& scene);
 
 /// One name for each atom type: as given, as the deck has them, or the one material of the file. `known`: the names in
 /// the file `source`. Throws Unanswered where a choice is left.
-std::vector<std::string> names_of_types(const Scene& scene, const std::vector<std::string>& given, const std::string& source,
-                                        const std::vector<std::string>& known);
+std::vector<std::string> names_of_types(const Scene& scene, const std::vector<std::string>& given, const std::string& source, const std::vector<std::string>& known);
 
 /// A number from the deck, no less than what its plan knows already, and where it comes from; 0: there is none.
 struct DefaultAnswer

@@ -43,20 +43,20 @@ std::size_t gran_of(const Words& words)
 class Converter
 {
  public:
-  Converter(const Scene& scene, const Conversion& conversion, const Scene* probe)
-      : scene_(scene), conversion_(conversion), deck_(scene), time_(deck_, scene, conversion, probe)
-  {
-  }
+  Converter(const Scene& scene, const Conversion& conversion) : scene_(scene), conversion_(conversion), deck_(scene), time_(deck_, scene, conversion) {}
 
   ConvertedDeck convert()
   {
     find_places();
     time_.change_steps();
+    const bool followed = time_.is_followed(), more_follows = time_.more_than_counts_follow();
     deck_.each_command([&](const At& at) { convert_line(at); });
     add_missing_moduli();
     allow_hard_particles();
     place_walls();
-    return deck_.result();
+    ConvertedDeck done = deck_.result();
+    done.followed = followed, done.more_follows = more_follows;
+    return done;
   }
 
  private:
@@ -88,21 +88,16 @@ class Converter
     if (command == "pair_style") return convert_pair(at, words);
     if (is_fix(words, "wall/gran")) return convert_wall(at, words);
     if (is_fix(words, "property/global")) return convert_property(at, words);
-    if (is_fix(words, "multicontact/halfspace"))
-      return remove_fix(at, words, "it belongs to the surface model multicontact, which mpm does not take");
-    if (command == "unfix" && words.size() > 1 && removed_.contains(words[1]))
-      return deck_.remove(at, "its fix was removed");
+    if (is_fix(words, "multicontact/halfspace")) return remove_fix(at, words, "it belongs to the surface model multicontact, which mpm does not take");
+    if (command == "unfix" && words.size() > 1 && removed_.contains(words[1])) return deck_.remove(at, "its fix was removed");
     if (command == "hard_particles" && words.size() > 1) return say_hard_particles(at, words);
-    if (command == "newton" && words.size() > 1 && words[1] == "on")
-      return deck_.replace(at, "newton off", "a contact with memory needs it");
+    if (command == "newton" && words.size() > 1 && words[1] == "on") return deck_.replace(at, "newton off", "a contact with memory needs it");
     if (command == "neighbor" && words.size() > 2 && words[2] == "multi")
-      return deck_.replace(at, fmt::format("neighbor {} bin", words[1]),
-                     "'multi' lets spheres of unlike size pass through each other");
+      return deck_.replace(at, fmt::format("neighbor {} bin", words[1]), "'multi' lets spheres of unlike size pass through each other");
     if (command == "run_style" && words.size() > 1 && words[1].starts_with("respa"))
       return deck_.replace(at, "run_style verlet", "LIGGGHTS does not call walls under respa");
     if (command == "jump") return convert_jump(at, words);
-    if (is_fix(words, "nve/limit") && conversion_.step_factor != 1)
-      deck_.leave(at, "'fix nve/limit' limits the way in one time step, which is shorter now");
+    if (is_fix(words, "nve/limit") && conversion_.step_factor != 1) deck_.leave(at, "'fix nve/limit' limits the way in one time step, which is shorter now");
     time_.convert_counts(at, words);
     time_.warn_of_step(at);
   }
@@ -115,9 +110,8 @@ class Converter
     const bool says_compliance = std::find(kept.begin(), kept.end(), "bodyCompliance") != kept.end();
     const bool says_range = std::find(kept.begin(), kept.end(), "beyondRange") != kept.end();
     return fmt::format(" law {} materials {}{}{}{}", conversion_.law, fmt::join(conversion_.materials, " "),
-                       conversion_.stretch > 1 ? fmt::format(" stretch {:g}", conversion_.stretch) : "",
-                       has_clumps_ && !says_compliance ? " bodyCompliance on" : "",
-                       says_range ? "" : " beyondRange crush");
+        conversion_.stretch > 1 ? fmt::format(" stretch {:g}", conversion_.stretch) : "", has_clumps_ && !says_compliance ? " bodyCompliance on" : "",
+        says_range ? "" : " beyondRange crush");
   }
 
   std::string normal_model(const Words& words) const
@@ -137,8 +131,8 @@ class Converter
   void leave_dropped(const At& at, const ModelWords& model)
   {
     for (const std::string& text : model.dropped)
-      if (text.find("became") != std::string::npos || text.find("cohesion") != std::string::npos ||
-          text.find("rolling_friction") != std::string::npos || text.find("surface") != std::string::npos)
+      if (text.find("became") != std::string::npos || text.find("cohesion") != std::string::npos || text.find("rolling_friction") != std::string::npos ||
+          text.find("surface") != std::string::npos)
         deck_.leave(at, text);
   }
 
@@ -153,17 +147,14 @@ class Converter
     std::size_t end = words.size();
     if (gran > 1)
       for (std::size_t k = gran + 1; k < words.size() && end == words.size(); ++k)
-        if (words[k].starts_with("lubricate") || words[k].starts_with("sph") || words[k] == "gran" || words[k].starts_with("lj/") ||
-            words[k].starts_with("bubble"))
+        if (words[k].starts_with("lubricate") || words[k].starts_with("sph") || words[k] == "gran" || words[k].starts_with("lj/") || words[k].starts_with("bubble"))
           end = k;
     const Words own(words.begin() + static_cast<std::ptrdiff_t>(gran) + 1, words.begin() + static_cast<std::ptrdiff_t>(end));
     const ModelWords model = model_words(own, false);
-    const Words before(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(gran) + 1),
-        behind(words.begin() + static_cast<std::ptrdiff_t>(end), words.end());
+    const Words before(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(gran) + 1), behind(words.begin() + static_cast<std::ptrdiff_t>(end), words.end());
     leave_dropped(at, model);
-    deck_.replace(at,
-            fmt::format("{} {}{}{}{}", join(before), join(model.words), own_words(model.words), behind.empty() ? "" : " ", join(behind)),
-            reason(model, normal_model(own), true));
+    deck_.replace(at, fmt::format("{} {}{}{}{}", join(before), join(model.words), own_words(model.words), behind.empty() ? "" : " ", join(behind)),
+        reason(model, normal_model(own), true));
   }
 
   void convert_wall(const At& at, const Words& words)
@@ -172,8 +163,8 @@ class Converter
     const ModelWords model = model_words(own, true);
     leave_dropped(at, model);
     const bool alone = !first_pair_;
-    deck_.replace(at, fmt::format("fix {} {} wall/gran {}{}", words[1], words[2], join(model.words), alone ? own_words(model.words) : ""),
-            reason(model, normal_model(own), alone));
+    deck_.replace(
+        at, fmt::format("fix {} {} wall/gran {}{}", words[1], words[2], join(model.words), alone ? own_words(model.words) : ""), reason(model, normal_model(own), alone));
   }
 
   /// Walls, and heat conduction, go behind the pair_style that they take words from.
@@ -202,18 +193,14 @@ class Converter
 
   void convert_property(const At& at, const Words& words)
   {
-    if (is_property(words, "coefficientRestitution"))
-      return remove_fix(at, words, "restitution follows from the material and the speed");
+    if (is_property(words, "coefficientRestitution")) return remove_fix(at, words, "restitution follows from the material and the speed");
     if (is_property(words, "youngsModulus") || is_property(words, "YoungsModulus"))
-      return set_values(at, words, conversion_.youngs_modulus, 1 / unit_of_pressure(),
-                        "the real modulus of the material, as the law has it");
-    if (is_property(words, "poissonsRatio"))
-      return set_values(at, words, conversion_.poisson_ratio, 1, "Poisson's ratio of the material, as the law has it");
+      return set_values(at, words, conversion_.youngs_modulus, 1 / unit_of_pressure(), "the real modulus of the material, as the law has it");
+    if (is_property(words, "poissonsRatio")) return set_values(at, words, conversion_.poisson_ratio, 1, "Poisson's ratio of the material, as the law has it");
     if (is_property(words, "cohesionEnergyDensity") && conversion_.stretch > 1) return divide_cohesion(at, words);
   }
 
-  void set_values(const At& at, const Words& words, const std::map<int, double>& values, double unit,
-                  const std::string& why)
+  void set_values(const At& at, const Words& words, const std::map<int, double>& values, double unit, const std::string& why)
   {
     Words now = words;
     bool differs = false;
@@ -248,9 +235,7 @@ class Converter
   void add_missing_moduli()
   {
     if (has_young_ && has_poisson_) return;
-    const At place = box_ && first_pair_ && deck_.order(*box_) > deck_.order(*first_pair_) ? *box_
-                     : first_pair_                                                  ? *first_pair_
-                                                                                     : *first_wall_;
+    const At place = box_ && first_pair_ && deck_.order(*box_) > deck_.order(*first_pair_) ? *box_ : first_pair_ ? *first_pair_ : *first_wall_;
     const bool behind = box_ && place.file == box_->file && place.index == box_->index;
     const auto add = [&](const char* name, const std::map<int, double>& values, double unit) {
       std::string text = fmt::format("fix granulaw_{} all property/global {} peratomtype", name, name);
@@ -268,22 +253,17 @@ class Converter
     if (!has_poisson_) add("poissonsRatio", conversion_.poisson_ratio, 1);
   }
 
-  static double fallback(const std::map<int, double>& values)
-  {
-    return values.empty() ? 0.3 : values.begin()->second;
-  }
+  static double fallback(const std::map<int, double>& values) { return values.empty() ? 0.3 : values.begin()->second; }
 
   bool needs_hard_particles() const
   {
-    return std::any_of(conversion_.youngs_modulus.begin(), conversion_.youngs_modulus.end(),
-                       [](const auto& entry) { return entry.second > 1e9; });
+    return std::any_of(conversion_.youngs_modulus.begin(), conversion_.youngs_modulus.end(), [](const auto& entry) { return entry.second > 1e9; });
   }
 
   void say_hard_particles(const At& at, const Words& words)
   {
     says_hard_ = true;
-    if (words[1] != "yes" && needs_hard_particles())
-      deck_.replace(at, "hard_particles yes", "LIGGGHTS demands it of moduli above 1e9 Pa");
+    if (words[1] != "yes" && needs_hard_particles()) deck_.replace(at, "hard_particles yes", "LIGGGHTS demands it of moduli above 1e9 Pa");
   }
 
   void allow_hard_particles()
@@ -303,8 +283,7 @@ class Converter
       const Words inner = raw_words(parse_line(w.unquoted()));
       if (inner.size() < 2) continue;
       const std::string& command = inner[0];
-      if (command == "pair_style" || time_.is_left_in_branch(inner) ||
-          is_fix(inner, "wall/gran") || is_fix(inner, "property/global"))
+      if (command == "pair_style" || time_.is_left_in_branch(inner) || is_fix(inner, "wall/gran") || is_fix(inner, "property/global"))
         deck_.leave(at, fmt::format("'{}' in a branch: change it by hand", join(inner)));
     }
     time_.warn_of_step(at);
@@ -315,8 +294,7 @@ class Converter
     for (std::size_t k = 1; k < at.line().words.size(); ++k) {
       const std::string path = at.line().words[k].unquoted();
       if (!path.starts_with("..") || path.find_first_of(" \t\n") != std::string::npos) continue;
-      if (const std::string within = path_within(scene_, path); within != path)
-        deck_.replace_word(at, k, within, "the converted deck stands in another folder");
+      if (const std::string within = path_within(scene_, path); within != path) deck_.replace_word(at, k, within, "the converted deck stands in another folder");
     }
   }
 
@@ -374,14 +352,6 @@ std::map<std::string, std::string> command_files(const Scene& scene)
   return texts;
 }
 
-std::map<std::string, std::string> probe_deck(const Scene& scene, const Conversion& conversion)
-{
-  EditedDeck deck(scene);
-  TimeSteps time(deck, scene, conversion, nullptr);
-  time.change_steps();
-  return time.is_followed() ? deck.result().files : std::map<std::string, std::string>{};
-}
-
 void require_contact_model(const Scene& scene)
 {
   std::string other = scene.deck;
@@ -392,10 +362,10 @@ void require_contact_model(const Scene& scene)
   fail(other, "the deck has neither pair_style gran nor fix wall/gran: there is no contact model to convert");
 }
 
-ConvertedDeck convert(const Scene& scene, const Conversion& conversion, const Scene* probe)
+ConvertedDeck convert(const Scene& scene, const Conversion& conversion)
 {
   require_contact_model(scene);
-  return Converter(scene, conversion, probe).convert();
+  return Converter(scene, conversion).convert();
 }
 
 double largest_time_step(const Scene& scene)
@@ -410,8 +380,7 @@ bool may_be_stretched(const Scene& scene)
 {
   return std::none_of(scene.commands.begin(), scene.commands.end(), [](const DeckCommand& c) {
     const auto has = [&](const char* word) { return std::find(c.words.begin(), c.words.end(), word) != c.words.end(); };
-    return has("washino/capillary/viscous") || has("easo/capillary/viscous") ||
-           (c.words.size() > 3 && c.words[0] == "fix" && c.words[3].starts_with("heat/gran"));
+    return has("washino/capillary/viscous") || has("easo/capillary/viscous") || (c.words.size() > 3 && c.words[0] == "fix" && c.words[3].starts_with("heat/gran"));
   });
 }
 

@@ -13,7 +13,7 @@ namespace granulaw::deck {
 /// The choices of a conversion.
 struct Conversion
 {
-  std::vector<std::string> materials;                 ///< name of each atom type
+  std::vector<std::string> materials;                   ///< name of each atom type
   std::map<int, double> youngs_modulus, poisson_ratio;  ///< by type, Pa: those that change
   double stretch = 1;
   double step_factor = 1;  ///< the time step is so many times shorter, every count of steps as much larger
@@ -33,6 +33,8 @@ struct ConvertedDeck
   std::map<std::string, std::string> files;  ///< text by path, as the deck calls it
   std::vector<Change> changes;
   std::vector<std::string> left;  ///< "FILE:LINE: what could not be converted"
+  bool followed = false;          ///< variables are computed from the time step
+  bool more_follows = false;      ///< with words that are no counts of steps: a speed, a size
 };
 
 /// The file of a path in the deck, which LIGGGHTS reads from the scene's folder.
@@ -47,12 +49,8 @@ std::string main_file(const Scene& scene);
 /// Files of commands that LIGGGHTS read, and their texts. Throws Error where one cannot be read.
 std::map<std::string, std::string> command_files(const Scene& scene);
 
-/// The deck in which only the time steps are changed: LIGGGHTS reads it to show which counts of steps follow them.
-/// Empty: no variable does, all counts stay as they are.
-std::map<std::string, std::string> probe_deck(const Scene& scene, const Conversion& conversion);
-
-/// `probe`: as LIGGGHTS reads probe_deck; null: there is none. Throws Error where the deck has nothing to convert.
-ConvertedDeck convert(const Scene& scene, const Conversion& conversion, const Scene* probe = nullptr);
+/// Throws Error where the deck has nothing to convert.
+ConvertedDeck convert(const Scene& scene, const Conversion& conversion);
 
 /// Throws Error where the deck has neither pair_style gran nor fix wall/gran.
 void require_contact_model(const Scene& scene);

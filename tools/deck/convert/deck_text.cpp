@@ -36,8 +36,10 @@ std::size_t comment_in(const std::string& text)
   for (std::size_t k = 0; k < text.size(); ++k) {
     const char c = text[k];
     if (c == '#' && !quote) return k;
-    if (c == quote) quote = 0;
-    else if (c == '"' || c == '\'') quote = c;
+    if (c == quote)
+      quote = 0;
+    else if (c == '"' || c == '\'')
+      quote = c;
   }
   return text.size();
 }
@@ -93,9 +95,7 @@ DeckText::DeckText(std::string path, const std::string& text) : path_(std::move(
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const int first = static_cast<int>(k) + 1;
     std::string joined = lines[k];
-    for (auto end = continuation(joined); end != std::string::npos && k + 1 < lines.size();
-         end = continuation(joined))
-      joined = joined.substr(0, end) + lines[++k];
+    for (auto end = continuation(joined); end != std::string::npos && k + 1 < lines.size(); end = continuation(joined)) joined = joined.substr(0, end) + lines[++k];
     DeckLine line = parse_line(joined);
     line.first = first;
     line.last = static_cast<int>(k) + 1;

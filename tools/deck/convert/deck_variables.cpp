@@ -13,9 +13,8 @@ bool DeckVariables::follows(const std::string& text, const std::set<std::string>
 
 bool DeckVariables::any_follows(const std::set<std::string>& roots) const
 {
-  return std::any_of(formulas_.begin(), formulas_.end(), [&](const auto& entry) {
-    return std::any_of(entry.second.begin(), entry.second.end(), [&](const std::string& f) { return follows(f, roots); });
-  });
+  return std::any_of(formulas_.begin(), formulas_.end(),
+      [&](const auto& entry) { return std::any_of(entry.second.begin(), entry.second.end(), [&](const std::string& f) { return follows(f, roots); }); });
 }
 
 bool DeckVariables::follows(const std::string& text, const std::set<std::string>& roots, std::set<std::string>& seen) const

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <limits>
 
 namespace granulaw::deck {
@@ -10,18 +9,7 @@ namespace granulaw::deck {
 std::optional<double> whole_number_in(const std::string& text)
 {
   if (text.empty() || text.find_first_not_of("0123456789") != std::string::npos || text.size() > 15) return {};
-  return std::stod(text);
-}
-
-std::optional<double> number_in(const std::string& text)
-{
-  std::size_t end = 0;
-  try {
-    const double value = std::stod(text, &end);
-    if (end == text.size() && std::isfinite(value)) return value;
-  } catch (const std::exception&) {
-  }
-  return {};
+  return number_in(text);
 }
 
 bool is_fix(const std::vector<std::string>& words, const std::string& style)

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_in.hpp"
 #include "deck/convert/convert.hpp"
 #include "deck/convert/deck_text.hpp"
 
@@ -13,7 +14,6 @@ namespace granulaw::deck {
 
 /// A whole number, as LIGGGHTS writes and reads one.
 std::optional<double> whole_number_in(const std::string& text);
-std::optional<double> number_in(const std::string& text);
 
 /// True of `fix ID GROUP STYLE ...`.
 bool is_fix(const std::vector<std::string>& words, const std::string& style);

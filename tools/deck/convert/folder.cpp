@@ -20,9 +20,8 @@ constexpr const char* original = "Original: ";
 
 bool is_restart(const Scene& scene, const std::string& path)
 {
-  return std::any_of(scene.commands.begin(), scene.commands.end(), [&](const DeckCommand& c) {
-    return c.words.size() > 1 && c.words[0] == "read_restart" && c.words[1] == path;
-  });
+  return std::any_of(
+      scene.commands.begin(), scene.commands.end(), [&](const DeckCommand& c) { return c.words.size() > 1 && c.words[0] == "read_restart" && c.words[1] == path; });
 }
 
 std::string text_of(const fs::path& path)
@@ -42,9 +41,8 @@ std::string owner_of(const fs::path& page)
 
 bool continues(const Scene& scene, const fs::path& folder)
 {
-  return std::any_of(scene.files_read.begin(), scene.files_read.end(), [&](const std::string& path) {
-    return is_restart(scene, path) && fs::exists(folder / path_within(scene, path));
-  });
+  return std::any_of(scene.files_read.begin(), scene.files_read.end(),
+      [&](const std::string& path) { return is_restart(scene, path) && fs::exists(folder / path_within(scene, path)); });
 }
 
 /// Files of commands that are there.
@@ -58,8 +56,7 @@ std::map<std::string, std::string> commands_there(const Scene& scene, const fs::
 
 [[noreturn]] void fail_for_file(const fs::path& path)
 {
-  fail("-o", "the folder has a file of this name, and no conversion of this deck wrote it: name another folder, or move the file away",
-       path.string());
+  fail("-o", "the folder has a file of this name, and no conversion of this deck wrote it: name another folder, or move the file away", path.string());
 }
 
 }  // namespace
@@ -72,16 +69,17 @@ std::string original_line(const Scene& scene, const fs::path& folder)
 
 Destination open_destination(const Scene& scene, const fs::path& folder)
 {
-  Destination d{.folder = folder};
+  Destination d;
+  d.folder = folder;
   const std::string own = original_line(scene, folder), owner = owner_of(folder / d.page);
   d.is_own = owner == own;
   if (!d.is_own && !owner.empty()) {
     if (!continues(scene, folder))
       fail("-o",
-           fmt::format("it holds the conversion of another deck ({}): name another folder. A deck that continues from a restart file goes into "
-                       "the same folder once the converted deck before has written the file",
-                       printable(owner.substr(std::string(original).size()))),
-           folder.string());
+          fmt::format(
+              "it holds the conversion of another deck ({}): name another folder. A deck that continues from a restart file goes into the same folder once the converted deck before has written the file",
+              printable(owner.substr(std::string(original).size()))),
+          folder.string());
     const std::string deck = fs::path(scene.deck).filename().string();
     d.law = deck + "." + d.law, d.page = deck + "." + d.page;
     d.shared = commands_there(scene, folder);
@@ -92,8 +90,7 @@ Destination open_destination(const Scene& scene, const fs::path& folder)
     if (const auto there = commands_there(scene, folder); !there.empty()) fail_for_file(there.begin()->first);
   }
   fs::create_directories(folder);
-  if (!fs::exists(folder / d.page))
-    write_text_atomically((folder / d.page).string(), own + "\n\nThe conversion has not ended.\n");
+  if (!fs::exists(folder / d.page)) write_text_atomically((folder / d.page).string(), own + "\n\nThe conversion has not ended.\n");
   return d;
 }
 
@@ -145,8 +142,7 @@ std::vector<std::string> copy_data(const Scene& scene, const Destination& destin
     const fs::path parent = fs::path(path).parent_path();
     if (parent.empty() || path.starts_with('/')) return;
     std::error_code ignored;
-    if (!if_there || fs::is_directory(path_of(scene, parent.string()), ignored))
-      fs::create_directories(folder / path_within(scene, parent.string()), ignored);
+    if (!if_there || fs::is_directory(path_of(scene, parent.string()), ignored)) fs::create_directories(folder / path_within(scene, parent.string()), ignored);
   };
   for (const std::string& path : scene.files_written) make_folder_of(path, false);
   for (const DeckCommand& command : scene.commands)

@@ -22,10 +22,9 @@ bool contains(const List& list, const std::string& word)
 }
 
 /// Words of LIGGGHTS's models that model mpm does not take, each followed by on or off.
-constexpr std::array<std::string_view, 14> dropped_switches{
-    "absolute_damping", "viscous", "ktToKnUser", "heating_normal_hertz", "heating_normal_hooke", "heating_tangential_no_history", "computeElasticPotential",
-    "computeDissipatedEnergy", "disableNormalWhenBonded", "disableTangentialWhenBonded", "fixKc", "limitLiquidContent",
-    "modifyLbVolume", "torsion"};
+constexpr std::array<std::string_view, 14> dropped_switches{"absolute_damping", "viscous", "ktToKnUser", "heating_normal_hertz", "heating_normal_hooke",
+    "heating_tangential_no_history", "computeElasticPotential", "computeDissipatedEnergy", "disableNormalWhenBonded", "disableTangentialWhenBonded", "fixKc",
+    "limitLiquidContent", "modifyLbVolume", "torsion"};
 /// Words of model mpm that the conversion says anew.
 constexpr std::array<std::string_view, 4> own_words{"law", "materials", "stretch", "stats"};
 
@@ -76,8 +75,7 @@ class Reader
     if (contains(known, value)) return keep(2);
     if (!instead) return drop(key, value, fmt::format("model mpm takes {}", fmt::join(known, ", ")));
     result_.words.insert(result_.words.end(), {key, instead});
-    result_.dropped.push_back(fmt::format("'{} {}' became '{}': model mpm takes {}", key, value, instead,
-                                          fmt::join(known, ", ")));
+    result_.dropped.push_back(fmt::format("'{} {}' became '{}': model mpm takes {}", key, value, instead, fmt::join(known, ", ")));
     at_ += 2;
   }
 
@@ -101,9 +99,9 @@ class Reader
     if (key == "computeDissipatedEnergy" && !is_wall_) return keep(2);
     const bool is_off = value == "off";
     drop(key, value,
-         key == "computeDissipatedEnergy"   ? "energies of walls are counted with the pair style's"
-         : key == "computeElasticPotential" ? (is_off ? "it is off" : "'energy on' and f_granulaw give this energy")
-                                            : "it belongs to the normal model that was replaced");
+        key == "computeDissipatedEnergy"   ? "energies of walls are counted with the pair style's"
+        : key == "computeElasticPotential" ? (is_off ? "it is off" : "'energy on' and f_granulaw give this energy")
+                                           : "it belongs to the normal model that was replaced");
   }
 
   void skip_own()
@@ -115,11 +113,9 @@ class Reader
       return;
     }
     const auto ends = [&](const std::string& word) {
-      const auto named = [&](const auto& list) {
-        return std::any_of(list.begin(), list.end(), [&](const plugin::Keyword& k) { return k.name == word; });
-      };
-      return named(plugin::shared_keywords) || named(plugin::liggghts_keywords) || contains(own_words, word) ||
-             word == "beyondRange" || word == "waves" || contains(plugin::wall_words, word);
+      const auto named = [&](const auto& list) { return std::any_of(list.begin(), list.end(), [&](const plugin::Keyword& k) { return k.name == word; }); };
+      return named(plugin::shared_keywords) || named(plugin::liggghts_keywords) || contains(own_words, word) || word == "beyondRange" || word == "waves" ||
+             contains(plugin::wall_words, word);
     };
     while (at_ < words_.size() && !ends(words_[at_])) ++at_;
   }

@@ -42,8 +42,10 @@ std::string time_step_line(const Converted& c)
   if (!(c.step.deck_step > 0)) return "nothing moves: the time step stays";
   const double now = c.step.deck_step / c.conversion.step_factor;
   std::string text = fmt::format("{:.4g} s", c.step.deck_step);
-  if (c.conversion.step_factor > 1) text += fmt::format(" becomes {:.4g} s, every count of steps {:g} times as large", now, c.conversion.step_factor);
-  else text += " stays";
+  if (c.conversion.step_factor > 1)
+    text += fmt::format(" becomes {:.4g} s, every count of steps {:g} times as large", now, c.conversion.step_factor);
+  else
+    text += " stays";
   if (c.conversion.stretch > 1) text += fmt::format("; stretch {:g}", c.conversion.stretch);
   if (c.conversion.step_factor > 1 && !c.step.bound.empty()) text += fmt::format(" (no more by the {})", c.step.bound);
   return text;
@@ -67,22 +69,22 @@ std::string run_line(const Converted& c)
 std::string page(const Converted& c, const std::string& command)
 {
   const PlannedDeck& d = c.planned;
-  std::string text = fmt::format("# {}, converted to model mpm\n\n{}\n\nMade by `{}`. Run it:\n\n    {}\n\n", d.scene.deck,
-                                 original_line(d.scene, c.folder), command, run_line(c));
+  std::string text =
+      fmt::format("# {}, converted to model mpm\n\n{}\n\nMade by `{}`. Run it:\n\n    {}\n\n", d.scene.deck, original_line(d.scene, c.folder), command, run_line(c));
   text += "| | |\n|---|---|\n";
   for (int t = 1; t <= d.scene.types; ++t) {
     const std::string& name = c.conversion.materials[static_cast<std::size_t>(t) - 1];
     const auto young = c.conversion.youngs_modulus.find(t);
     text += fmt::format("| atom type {} | {}{}{} |\n", t, name, d.options.materials.contains(t) ? "" : ", rigid",
-                        young == c.conversion.youngs_modulus.end() ? "" : fmt::format(", E {:.4g} Pa", young->second));
+        young == c.conversion.youngs_modulus.end() ? "" : fmt::format(", E {:.4g} Pa", young->second));
   }
   text += fmt::format("| {} | {} |\n", c.conversion.law, c.law_pairs.empty() ? "none: no particle has a law" : fmt::format("{}", fmt::join(c.law_pairs, ", ")));
   text += fmt::format("| time step | {} |\n", time_step_line(c));
   if (const std::string line = tangential_line(c); !line.empty()) text += fmt::format("| tangential law | {} |\n", line);
   for (const PairPlan& p : d.plan.pairs)
-    text += fmt::format("| {} {}:{} | up to {:.3g} m/s, overlap {:.3g} R*, I {:.3g}; time step {} |\n", types_text(p.meeting), p.meeting.name_a,
-                        p.meeting.name_b, p.speed, p.overlap * c.conversion.stretch, p.damage_number,
-                        std::isfinite(p.time_step) && p.time_step > 0 ? fmt::format("{:.3g} s, times the stretch", p.time_step) : "any");
+    text += fmt::format("| {} {}:{} | up to {:.3g} m/s, overlap {:.3g} R*, I {:.3g}; time step {} |\n", types_text(p.meeting), p.meeting.name_a, p.meeting.name_b,
+        p.speed, p.overlap * c.conversion.stretch, p.damage_number,
+        std::isfinite(p.time_step) && p.time_step > 0 ? fmt::format("{:.3g} s, times the stretch", p.time_step) : "any");
   for (const std::string& answer : c.accepted) text += fmt::format("| taken from the deck | {} |\n", answer);
   if (c.checked) {
     text += "\n## Check\n\n";
@@ -91,13 +93,13 @@ std::string page(const Converted& c, const std::string& command)
   text += "\n## Changed lines\n\n| line of the original | before | after | reason |\n|---|---|---|---|\n";
   for (const Change& change : c.result.changes)
     text += fmt::format("| {} | {} | {} | {} |\n", change.where, change.before.empty() ? "(added)" : as_code(change.before),
-                        change.after.empty() ? "(removed)" : as_code(change.after), printable(change.why));
+        change.after.empty() ? "(removed)" : as_code(change.after), printable(change.why));
   text += "\n## Not converted\n\n";
   for (const std::string& left : c.result.left) text += fmt::format("- {}\n", printable(left));
   for (const std::string& note : d.scene.notes) text += fmt::format("- not followed by the plan: {}\n", printable(note));
   for (const std::string& path : c.restarts)
-    text += fmt::format("- {}: a restart file of the original. Its contacts are of another model: convert and run the deck that writes it, "
-                        "and put the new file here\n", path);
+    text += fmt::format(
+        "- {}: a restart file of the original. Its contacts are of another model: convert and run the deck that writes it, and put the new file here\n", path);
   if (c.result.left.empty() && d.scene.notes.empty() && c.restarts.empty()) text += "Nothing is left.\n";
   return text;
 }

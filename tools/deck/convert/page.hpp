@@ -9,7 +9,7 @@
 #include "deck/convert/choices.hpp"
 #include "deck/convert/convert.hpp"
 #include "deck/convert/folder.hpp"
-#include "deck/planned_deck.hpp"
+#include "deck/plan.hpp"
 
 namespace granulaw::deck {
 

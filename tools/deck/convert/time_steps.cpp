@@ -4,14 +4,73 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "deck/convert/step_counts.hpp"
+#include <map>
 
 namespace granulaw::deck {
 
 namespace {
 
 using Words = std::vector<std::string>;
+
+/// Places of the counts in `fix ID GROUP STYLE ...`, and words behind which one stands.
+struct FixCounts
+{
+  std::vector<std::size_t> places;
+  std::vector<std::string> keywords;
+};
+
+FixCounts counts_of_fix(const std::string& style)
+{
+  static const std::map<std::string, FixCounts> known{
+      {"ave/time", {{4, 6}, {}}},
+      {"ave/spatial", {{4, 6}, {}}},
+      {"ave/atom", {{4, 6}, {}}},
+      {"ave/histo", {{4, 6}, {}}},
+      {"ave/correlate", {{4, 6}, {}}},
+      {"ave/euler", {{}, {"nevery"}}},
+      {"ave/euler/region", {{}, {"nevery"}}},
+      {"print", {{4}, {}}},
+      {"adapt", {{4}, {}}},
+      {"check/timestep/gran", {{4}, {}}},
+      {"check/timestep/sph", {{4}, {}}},
+      {"momentum", {{4}, {}}},
+      {"store/state", {{4}, {}}},
+      {"deform", {{4}, {}}},
+      {"couple/cfd", {{}, {"couple_every", "every"}}},
+      {"massflow/mesh/sieve", {{}, {}}},
+  };
+  if (style.starts_with("insert/")) return {{}, {"insert_every", "start"}};
+  const auto found = known.find(style);
+  return found == known.end() ? FixCounts{} : found->second;
+}
+
+/// Places of the words of a command that are numbers of time steps.
+std::vector<std::size_t> step_counts(const Words& words)
+{
+  std::vector<std::size_t> places;
+  if (words.size() < 2) return places;
+  const std::string& command = words[0];
+  const auto behind = [&](const std::vector<std::string>& keywords, std::size_t from) {
+    for (std::size_t k = from; k + 1 < words.size(); ++k)
+      if (std::find(keywords.begin(), keywords.end(), words[k]) != keywords.end()) places.push_back(k + 1);
+  };
+  if (command == "run") {
+    places.push_back(1);
+    behind({"start", "stop", "every"}, 2);
+  } else if (command == "thermo" || command == "restart" || command == "reset_timestep") {
+    places.push_back(1);
+  } else if (command == "dump" && words.size() > 4) {
+    places.push_back(4);
+  } else if (command == "dump_modify") {
+    behind({"every"}, 2);
+  } else if (command == "fix" && words.size() > 3) {
+    const FixCounts counts = counts_of_fix(words[3]);
+    for (const std::size_t k : counts.places)
+      if (k < words.size()) places.push_back(k);
+    behind(counts.keywords, 4);
+  }
+  return places;
+}
 
 /// The variable that a word is, "${name}" or "$n"; empty: it is none.
 std::string variable_of(const std::string& word)
@@ -50,10 +109,8 @@ bool is_definition(const DeckLine& line, const std::string& name)
 
 }  // namespace
 
-TimeSteps::TimeSteps(EditedDeck& deck, const Scene& scene, const Conversion& conversion, const Scene* probe)
-    : deck_(deck), scene_(scene), conversion_(conversion)
+TimeSteps::TimeSteps(EditedDeck& deck, const Scene& scene, const Conversion& conversion) : deck_(deck), scene_(scene), conversion_(conversion)
 {
-  if (probe) probe_.emplace(*probe);
   deck_.each_command([&](const At& at) {
     const Words words = raw_words(at.line());
     if (words[0] == "variable")
@@ -128,9 +185,8 @@ void TimeSteps::keep_whole_numbers()
     const Words raw = raw_words(at.line());
     if (done.empty() || raw[0] == "if") return;
     for (std::size_t k = 1; k < raw.size(); ++k) {
-      const bool was_whole = std::all_of(done.begin(), done.end(), [&](const DeckCommand* c) {
-        return c->words.size() == raw.size() && c->words[0] == raw[0] && whole_number_in(c->words[k]);
-      });
+      const bool was_whole = std::all_of(
+          done.begin(), done.end(), [&](const DeckCommand* c) { return c->words.size() == raw.size() && c->words[0] == raw[0] && whole_number_in(c->words[k]); });
       if (!was_whole || !follows(raw[k])) continue;
       if (const std::string name = variable_of(raw[k]); !name.empty()) whole.insert(name);
       if (const std::string formula = formula_of(raw[k]); !formula.empty() && !is_rounded(formula))
@@ -151,13 +207,11 @@ void TimeSteps::keep_whole(const std::string& name)
   });
 }
 
-/// The count that stands at this place once the steps are changed.
-std::optional<double> TimeSteps::count_now(const At& at, std::size_t k, const std::string& old) const
+/// The count that a word gives once the steps are changed: one that follows them grows as they shrink.
+double TimeSteps::count_now(const At& at, std::size_t k, double old) const
 {
-  if (!probe_) return whole_number_in(old);
-  const auto& done = probe_->at(at.file->path(), at.line().first);
-  if (done.empty() || k >= done[0]->words.size()) return whole_number_in(old);
-  return whole_number_in(done[0]->words[k]);
+  const Words raw = raw_words(at.line());
+  return k < raw.size() && follows(raw[k]) ? scaled(old) : old;
 }
 
 double TimeSteps::scaled(double count) const
@@ -169,9 +223,8 @@ double TimeSteps::scaled(double count) const
 /// The stride of an average: its period is a multiple of it, and holds all repetitions.
 double TimeSteps::wanted_stride(const At& at, const Words& words, double old) const
 {
+  const double most = scaled(old), period = scaled(whole_number_in(words[6]).value_or(0)), repetitions = count_now(at, 5, whole_number_in(words[5]).value_or(1));
   const bool period_follows = at.line().words.size() == words.size() && follows(at.line().words[6].text);
-  const double period_now = count_now(at, 6, words[6]).value_or(0), repetitions = count_now(at, 5, words[5]).value_or(1);
-  const double most = scaled(old), period = period_follows ? period_now : scaled(whole_number_in(words[6]).value_or(0));
   const double least = period_follows ? 1 : std::max(1.0, std::floor(most / 2));
   for (double stride = most; stride >= least; --stride)
     if (stride * repetitions <= period && std::fmod(period, stride) == 0) return stride;
@@ -186,28 +239,29 @@ void TimeSteps::convert_counts(const At& at, const Words& words)
   const Words raw = raw_words(at.line());
   double stride = 1;  // of an average
   for (const std::size_t k : step_counts(words)) {
-    if (words[k].starts_with("v_")) deck_.leave(at, fmt::format("its count of steps comes from variable {}, and there are {:g} times as many now", words[k].substr(2), f));
+    if (words[k].starts_with("v_"))
+      deck_.leave(at, fmt::format("its count of steps comes from variable {}, and there are {:g} times as many now", words[k].substr(2), f));
     const auto old = whole_number_in(words[k]);
     if (!old || *old == 0 || (words[0] == "run" && k == 1 && *old <= 1)) continue;
     const bool is_stride = is_average(words) && k == 4, is_period = is_average(words) && k == 6;
     const double want = is_stride ? wanted_stride(at, words, *old) : is_period ? stride * std::floor(scaled(*old) / stride) : scaled(*old);
-    const auto now = count_now(at, k, words[k]);
-    const bool stays = now && std::abs(*now / want - 1) < 0.01 + 1 / want;
-    if (is_stride) stride = stays ? *now : want;
+    const double now = count_now(at, k, *old);
+    const bool stays = std::abs(now / want - 1) < 0.01 + 1 / want && !(is_average(words) && now != *old);
+    if (is_stride) stride = stays ? now : want;
     if (stays) continue;
     if (words.size() != raw.size()) {
       deck_.leave(at, fmt::format("its count of steps {} should be {:.0f}", words[k], want));
       continue;
     }
-    const bool varies = std::any_of(done.begin(), done.end(), [&](const DeckCommand* c) {
-      return c->words[0] == words[0] && k < c->words.size() && c->words[k] != words[k];
-    });
+    const bool varies =
+        std::any_of(done.begin(), done.end(), [&](const DeckCommand* c) { return c->words[0] == words[0] && k < c->words.size() && c->words[k] != words[k]; });
     const std::string why = fmt::format("{:g} times as many steps, the same time", f);
-    const std::string formula = fmt::format("{:g}*{}", now ? scaled(*old) / *now : f, raw[k]);
+    const std::string formula = fmt::format("{:g}*{}", scaled(*old) / now, raw[k]);
     if (!varies)
       deck_.replace_word(at, k, fmt::format("{:.0f}", want), why);
     else
-      deck_.replace_word(at, k, new_variable(at, is_period ? fmt::format("{0}*floor({1}/{0})", at.line().words[4].text, formula) : fmt::format("round({})", formula), "steps"), why);
+      deck_.replace_word(
+          at, k, new_variable(at, is_period ? fmt::format("{0}*floor({1}/{0})", at.line().words[4].text, formula) : fmt::format("round({})", formula), "steps"), why);
   }
 }
 
@@ -228,30 +282,23 @@ void TimeSteps::warn_of_step(const At& at)
   for (auto at_step = text.find("step"); at_step != std::string::npos; at_step = text.find("step", at_step + 1)) {
     const std::string before = at_step > 0 ? text.substr(at_step - 1, 1) : "", behind = text.substr(at_step + 4, 1);
     if (!ends.contains(before) || !ends.contains(behind)) continue;
-    if (!follows(text))
-      deck_.leave(at, fmt::format("it depends on the number of the step, and there are {:g} times as many now", conversion_.step_factor));
+    if (!follows(text)) deck_.leave(at, fmt::format("it depends on the number of the step, and there are {:g} times as many now", conversion_.step_factor));
     return;
   }
 }
 
-bool only_counts_follow(const Scene& scene, const Scene& probe)
+bool TimeSteps::more_than_counts_follow() const
 {
   static const std::set<std::string> not_compared{"variable", "timestep", "print", "if", "next", "label", "jump"};
-  const Executed after(probe);
-  return std::all_of(scene.commands.begin(), scene.commands.end(), [&](const DeckCommand& c) {
-    const auto& now = after.at(c.file, c.line);
-    if (not_compared.contains(c.words[0]) || is_fix(c.words, "print")) return true;
-    const std::vector<std::size_t> counts = step_counts(c.words);
-    return std::any_of(now.begin(), now.end(), [&](const DeckCommand* d) {
-      if (d->words.size() != c.words.size()) return false;
-      for (std::size_t k = 0; k < c.words.size(); ++k) {
-        const auto was = number_in(c.words[k]), is = number_in(d->words[k]);
-        const bool same = c.words[k] == d->words[k] || (was && is && std::abs(*is - *was) <= 0.01 * std::abs(*was));
-        if (!same && std::find(counts.begin(), counts.end(), k) == counts.end()) return false;
-      }
-      return true;
-    });
+  bool more = false;
+  deck_.each_command([&](const At& at) {
+    const Words raw = raw_words(at.line()), words = deck_.words_of(at);
+    if (!is_changed() || not_compared.contains(words[0]) || is_fix(words, "print") || words.size() != raw.size()) return;
+    const std::vector<std::size_t> counts = step_counts(words);
+    for (std::size_t k = 1; k < raw.size(); ++k)
+      more |= raw[k].find('$') != std::string::npos && follows(raw[k]) && std::find(counts.begin(), counts.end(), k) == counts.end();
   });
+  return more;
 }
 
 }  // namespace granulaw::deck

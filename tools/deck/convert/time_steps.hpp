@@ -14,13 +14,14 @@ namespace granulaw::deck {
 class TimeSteps
 {
  public:
-  /// `probe`: the deck after change_steps() alone, as LIGGGHTS reads it; null: there is none.
-  TimeSteps(EditedDeck& deck, const Scene& scene, const Conversion& conversion, const Scene* probe);
+  TimeSteps(EditedDeck& deck, const Scene& scene, const Conversion& conversion);
 
   /// Every `timestep`, and variables that follow it: one that was a whole number stays one.
   void change_steps();
   /// A variable is computed from the time step.
   bool is_followed() const { return is_changed() && variables_.any_follows(step_variables_); }
+  /// Words of a command that are no counts of steps follow the time step: a speed, a size.
+  bool more_than_counts_follow() const;
   /// Counts of steps that do not follow the time step by themselves.
   void convert_counts(const At& at, const std::vector<std::string>& words);
   /// True if a command within a branch counts steps, and these do not follow.
@@ -35,7 +36,7 @@ class TimeSteps
   bool change_definition(const std::string& name);
   void keep_whole_numbers();
   void keep_whole(const std::string& name);
-  std::optional<double> count_now(const At& at, std::size_t k, const std::string& old) const;
+  double count_now(const At& at, std::size_t k, double old) const;
   double scaled(double count) const;
   double wanted_stride(const At& at, const std::vector<std::string>& words, double old) const;
   std::string new_variable(const At& at, const std::string& formula, const std::string& kind);
@@ -43,13 +44,9 @@ class TimeSteps
   EditedDeck& deck_;
   const Scene& scene_;
   const Conversion& conversion_;
-  std::optional<Executed> probe_;
   DeckVariables variables_;
   std::set<std::string> step_variables_;  ///< whose definitions are changed
   int made_ = 0;
 };
-
-/// False where words of a command that are no counts of steps follow the time step: a speed, a size.
-bool only_counts_follow(const Scene& scene, const Scene& probe);
 
 }  // namespace granulaw::deck
