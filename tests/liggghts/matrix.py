@@ -1,23 +1,19 @@
 #!/usr/bin/python3
 """Every command of LIGGGHTS that touches a contact, a particle or a wall, with mpm and thornton beside stock Hertz.
 
-matrix.py [--page FILE] [--rows FILE] [WORDS ...]   all features, or those whose group or name holds one of WORDS; exits 1 where a defect is not in KNOWN.
+matrix.py [WORDS ...]   all features, or those whose group or name holds one of WORDS; exits 1 at a defect, or where docs/evidence/liggghts-matrix.md has another outcome.
 The environment is that of the other tests (CMakeLists.txt); matrix_scene.py has the scene, matrix_contacts.py, matrix_fixes.py and matrix_runs.py the features."""
-import argparse
-import json
-import pathlib
 import re
 import sys
 import time
 
 import matrix_contacts
 import matrix_fixes
-import matrix_page
 import matrix_runs
 from harness import LAUNCHER, worst
 from matrix_compare import difference, run_all
-from matrix_known import KNOWN
 from matrix_scene import Variant
+from programs import ROOT
 
 FEATURES = matrix_contacts.FEATURES + matrix_fixes.FEATURES + matrix_runs.FEATURES
 MODELS = ("mpm", "thornton")
@@ -34,13 +30,17 @@ ELASTIC = {"mpm": ((PLAIN, 1), (PLAIN, 2), (ENERGY_ON, 2), (STRETCH, 1), (ALL, 2
 PLASTIC = {"mpm": ((ALL, 1), (ALL, 2)), "thornton": ((ALL, 1), (ALL, 2))}
 COMPOSED = {"mpm": ((ALL, 1), (ALL, 2)), "thornton": ()}
 YIELDING = (("plastic", PLASTIC), ("composed", COMPOSED))
+PAGE = (ROOT / "docs/evidence/liggghts-matrix.md").read_text()
+# outcome, worst first: the page's section
+SECTIONS = {"DEFECT": "Defects", "refused": "Refused", "as hertz": "Refused with hertz as well", "kept": "Works where stock hertz loses histories",
+            "runs": "Runs, with other numbers than hertz", "same": "Works as with hertz"}
 
 
 class Row:
     """Outcome of one feature under Hertz, mpm and thornton, each {words: where}; 'same' where nothing else is said."""
 
     def __init__(self, feature):
-        self.feature, self.runs, self.worst = feature, 0, {"mpm": 0.0, "thornton": 0.0}
+        self.feature, self.worst = feature, {"mpm": 0.0, "thornton": 0.0}
         self.found = {"mpm": [], "thornton": []}  # (outcome, where)
         self.waves = False  # whether they took energy from a composed run
 
@@ -55,7 +55,6 @@ class Row:
                 runs.update(run_all(self.feature, [v for v in variants if v.ranks == ranks], program))
         if self.feature.kept:
             self.stock_loses(stock[0], runs[stock[0]])
-        self.runs = len(runs)
         return runs
 
     def stock_loses(self, variant, kept):
@@ -140,23 +139,17 @@ class Row:
         if said:
             self.found[model].append((said, where))
 
-    def cell(self, model):
-        """The outcome of one model in words."""
-        found = self.found[model]
-        if not found:
-            return "kept" if self.feature.kept else "same" if self.feature.twin else "runs"
-        total = sum(len(cases[model]) for cases in (ELASTIC, PLASTIC, COMPOSED))
-        cells = {}
-        everywhere = [entry for entry in KNOWN if entry[0] == ".*"]
-        found = [(said, where) for said, where in found if known(self.feature, model, said, where) not in everywhere]
-        if not found:
-            return "same but for the defect of all features" if self.feature.twin else "runs but for the defect of all features"
-        for said, where in found:  # those that differ in their numbers only are one
-            cells.setdefault(re.sub(r"-?\d[\d.e+-]*", "#", said), (said, []))[1].append(where)
-        return "; ".join(said if len(places) >= total or not said.startswith("DEFECT") else f"{said} [{' / '.join(places)}]" for said, places in cells.values())
+    def kind(self):
+        """The worst outcome of either model."""
+        found = [said for rows in self.found.values() for said, _ in rows]
+        return next((kind for kind in list(SECTIONS)[:3] if any(kind in said for said in found)), "kept" if self.feature.kept else "same" if self.feature.twin else "runs")
 
-    def defects(self):
-        return [(model, said, where) for model, found in self.found.items() for said, where in found if said.startswith("DEFECT")]
+    def faults(self):
+        """Defects, and a page that has the feature in another section."""
+        section = PAGE.partition(f"## {SECTIONS[self.kind()]}\n")[2].partition("\n## ")[0]
+        shown = re.sub(r"\s+", " ", self.feature.name).replace("|", "\\|") in section
+        return [f"{model}: {said} [{where}]" for model, found in self.found.items() for said, where in found if said.startswith("DEFECT")] + \
+            ([] if shown else [f"the page does not have it under '{SECTIONS[self.kind()]}'"])
 
 
 def states_apart(one, two):
@@ -165,57 +158,20 @@ def states_apart(one, two):
     return difference({"state": two}, {"state": one}, RANKS)[0] if one and two else "no state.txt"
 
 
-def known(feature, model, said, where):
-    """The entry of KNOWN that a defect belongs to; None: it is new."""
-    return next((entry for entry in KNOWN if re.fullmatch(entry[0], feature.name) and model in entry[1] and re.search(entry[2], f"{said} [{where}]")), None)
-
-
-def runs_of_a_feature():
-    return 4 + sum(len(cases[model]) for cases in (ELASTIC, PLASTIC, COMPOSED) for model in MODELS)
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--page", help="file to write the page to")
-    parser.add_argument("--rows", help="file of rows: what was run is added, and the page shows rows of it for what was not")
-    parser.add_argument("words", nargs="*")
-    options = parser.parse_args()
-    chosen = [f for f in FEATURES if not options.words or any(w in f"{f.group}: {f.name}" for w in options.words)]
-    started, new, shown, radiating = time.time(), 0, set(), 0
-    rows = read_rows(options.rows)
+    words, started, faults, radiating = sys.argv[1:], time.time(), 0, 0
+    chosen = [f for f in FEATURES if not words or any(w in f"{f.group}: {f.name}" for w in words)]
     for feature in chosen:
         row = Row(feature).examine()
         radiating += row.waves
-        for model, said, where in row.defects():
-            entry = known(feature, model, said, where)
-            shown.add(entry)
-            if entry is None:
-                new += 1
-                print(f"DEFECT, not known: {feature.group}: {feature.name}: {model}: {said} [{where}]", flush=True)
-        rows[feature.group, feature.name] = found = {"group": feature.group, "name": feature.name, "runs": row.runs,
-                                                     "cells": {model: row.cell(model) for model in MODELS}}
-        if options.rows:
-            with open(options.rows, "a") as out:
-                out.write(json.dumps(found) + "\n")
+        for fault in row.faults():
+            faults += 1
+            print(f"FAULT: {feature.group}: {feature.name}: {fault}", flush=True)
         print(f"{feature.group}: {feature.name} [{', '.join(f'{v:.1e}' for v in row.worst.values())}; {time.time() - started:.0f} s]", flush=True)
-    if not options.words:
-        for entry in KNOWN:
-            if entry not in shown:
-                print(f"no run shows this known defect any more, remove it from matrix_known.py: {entry}")
-    print(f"{len(chosen)} features, in {radiating} of which waves took energy, {time.time() - started:.0f} s, {new} defects that are not known")
-    if not options.words and radiating < len(chosen) / 2:
+    print(f"{len(chosen)} features, in {radiating} of which waves took energy, {time.time() - started:.0f} s, {faults} faults")
+    if not words and radiating < len(chosen) / 2:
         sys.exit("matrix.py: waves took no energy from most features: the composed law does not radiate")
-    if options.page:
-        matrix_page.write(options.page, [rows[f.group, f.name] for f in FEATURES if (f.group, f.name) in rows],
-                          {"runs": runs_of_a_feature(), "mpm": TWIN["mpm"], "thornton": TWIN["thornton"], "energy": ENERGY, "ranks": RANKS})
-    sys.exit(1 if new else 0)
-
-
-def read_rows(path):
-    """{(group, name): row} of a file of rows; later ones count."""
-    lines = pathlib.Path(path).read_text().splitlines() if path and pathlib.Path(path).exists() else []
-    found = [json.loads(line) for line in lines]
-    return {(row["group"], row["name"]): row for row in found}
+    sys.exit(1 if faults else 0)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import re
 from pytest import mark
 import matrix_between as between
 from harness import Deck, worst
+from programs import ROOT
 
 # A rank's sums are in another order than one rank's, and lists that are made anew list neighbours in another one: 1e-16 a step, amplified by 250 steps.
 ROUNDING = 1e-9
@@ -67,6 +68,10 @@ class TestCommands(Between):
     @mark.parametrize("model", MODELS)
     def test_every_command(self, model):
         self.check(model, 1, between.rows())
+
+    def test_the_page_names_every_command(self):
+        page = (ROOT / "docs/evidence/liggghts-matrix.md").read_text().partition("## Between two runs")[2]
+        assert [command for command in between.COMMANDS if f"`{command}`" not in page] == []
 
     def test_commands_that_touch_lists_and_particles(self):
         self.check("mpm", 2, [row for row in between.rows() if row[0] in TOUCHING or "coord/atom" in row[1]])

@@ -5,7 +5,7 @@ import re
 
 from pytest import approx, mark
 import gas
-from collisions import wall_deck
+from collisions import pair_deck, wall_deck
 from harness import GLASS, POWDER, Deck, head, properties, sphere_mass
 
 RADIUS = 1.7e-3
@@ -54,6 +54,19 @@ class TestStats(Deck):
         table = text[text.index("granulaw contact laws"):].splitlines()
         assert sum(str(self.law) in line for line in table[2:7]) == 5, table[:8]
         assert sum("reduced" in line for line in table[2:7]) == 1
+
+    @mark.parametrize("model", ("mpm", "mpm with axis", "thornton"))
+    def test_what_one_collision_lost(self, model):
+        """Dissipated = kinetic energy before - after, of wall and pair: 500 steps a contact, whose error in e is 2e-4 of the loss."""
+        self.fixture("write", self.law, *(["axis"] if "axis" in model else []))
+        name, mass = model.split()[0], sphere_mass(RADIUS, POWDER.density)
+        words = (f"law {self.law} materials powder " if name == "mpm" else "") + "elasticDamping off"
+        show = 'variable d equal f_granulaw\nprint "LOST ${s} ${d}"\n'
+        decks = (wall_deck(name, words, POWDER, RADIUS, 1.0, 1.2e-8).replace("run 120", "run 2500") + "variable s equal v_v\n" + show,
+                 pair_deck(name, words, (POWDER, POWDER), (RADIUS, RADIUS), 1.0, 1.2e-8, run="run 2500") + show)
+        for m_eff, (e, lost) in zip((mass, mass / 2), self.run_each(decks, "LOST")):
+            assert e < 0.95
+            assert lost / (0.5 * m_eff * (1 - e * e)) == approx(1.0, abs=2e-4)
 
     def test_onset_speed_is_where_restitution_leaves_one(self):
         deck = wall_deck("mpm", f"law {self.law} materials powder stats s.json", POWDER, RADIUS, 1.0, 2e-8)
@@ -176,6 +189,11 @@ class TestStats(Deck):
             # six digits of each term; the time step's own error is smaller (test_energy.py)
             assert total[1] / total[0] == approx(1, abs=2e-5)
             assert series["kinetic_J"][-1] < 0.99 * series["kinetic_J"][0]
+            pair = stats["pair"]
+            assert sum(pair["impact_speed"]["count"]) == pair["contacts_begun"] > 100
+            assert sum(pair["largest_overlap_over_radius"]["count"]) == pair["contacts_ended"]
+            assert stats["wall"]["contacts_begun"] == 0
+            assert not list(self.folder.glob("*.tmp.*"))
             found.append(series)
         for name, column in found[0].items():  # of a chaotic gas: before rounding grows
             for a, b in zip(column[:50], found[1][name][:50]):

@@ -43,7 +43,7 @@ class TestWallsOnly(Deck):
                 text = self.run_deck(self.deck(walls) + out, ranks=ranks)
                 loss, begun, between, rebound = self.result(text, "SAID")
                 assert (begun, between) == (1, 0), name
-                # 500 steps a contact: the step's own error, as in test_contact_statistics.py
+                # 500 steps a contact: the step's own error, as in test_stats.py
                 assert loss / (0.5 * MASS * (SPEED**2 - rebound**2)) == approx(1.0, abs=2e-4), name
                 assert rebound < 0.95
                 assert text.count("granulaw contact laws") == 1, name
