@@ -67,6 +67,13 @@ class EnergyTally
     dissipated_energy = dissipated ? ParticleColumns::find(lmp, lost) : ParticleColumns();
   }
 
+  /// Before the forces of a step, whose contacts add up what is stored.
+  void begin_step(LAMMPS_NS::LAMMPS* lmp, bool dissipated)
+  {
+    find(lmp, dissipated);
+    for (int a = 0; per_atom && a < lmp->atom->nlocal; ++a) per_atom.rows()[a][stored] = 0.0;
+  }
+
   void share(const SurfacesIntersectData& sidata, Column column, double energy, int nlocal) const
   {
     if (!per_atom) return;

@@ -178,9 +178,10 @@ class ElementHost : public ContactInquiry
   void take_out(ContactStatistics& statistics, const ContactPlace& contact, double weight) const override
   {
     const double delta_max = contact.history[history_offset_];
-    if (delta_max > 0.0)
-      counts_.take_out(statistics.pairs[pair_key(*setup_, contact.itype, contact.jtype)], contact.history,
-                       delta_max, contact.r_eff(), weight);
+    // types that have no law now have no counts, and all ranks must have the same
+    const auto counts = statistics.pairs.find(pair_key(*setup_, contact.itype, contact.jtype));
+    if (delta_max > 0.0 && counts != statistics.pairs.end())
+      counts_.take_out(counts->second, contact.history, delta_max, contact.r_eff(), weight);
   }
 
  private:

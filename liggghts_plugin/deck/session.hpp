@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "contact/pair.hpp"
 #include "liggghts_plugin/books/contact_statistics.hpp"
@@ -103,6 +104,13 @@ class Session
   bool crushes = false;            ///< `beyondRange crush` of the pair style or a wall
   EnergyTally tally;
   Bodies bodies;
+
+  /// What is done in each step before and after the forces, on all ranks (run/fix_step.hpp): for numbers that all contacts of
+  /// a particle share.
+  using Work = std::function<void(LAMMPS_NS::LAMMPS*)>;
+  std::vector<Work> before_forces{[this](LAMMPS_NS::LAMMPS* lmp) { bodies.update(lmp); },
+                                  [this](LAMMPS_NS::LAMMPS* lmp) { if (energy) energy->begin_step(lmp, dissipated_energy); }},
+      after_forces;
 
   /// Options that walls inherit: set by the pair style.
   std::optional<Options> pair_options;

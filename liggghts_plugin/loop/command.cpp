@@ -13,6 +13,7 @@
 #include "liggghts_plugin/engine/private_members.hpp"
 #include "liggghts_plugin/run/contact_history.hpp"
 #include "liggghts_plugin/run/contact_list.hpp"
+#include "liggghts_plugin/run/fix_step.hpp"
 #include "liggghts_plugin/run/heat_conduction.hpp"
 #include "liggghts_plugin/run/runaway.hpp"
 
@@ -180,6 +181,7 @@ void provide_observers(LAMMPS_NS::LAMMPS* lmp)
 void provide_fixes(LAMMPS_NS::LAMMPS* lmp)
 {
   provide_contact_histories(lmp);
+  provide_step_fix(lmp);
   provide_observers(lmp);
   provide_runaway_fix(lmp);
 }
@@ -239,7 +241,10 @@ void CommandStyle::begin_run(const std::function<void()>& init)
     check_run(lmp_, setup_);
     warn_strong_cohesion(lmp_, setup_);
     warn_of_other_tangential(lmp_, setup_);
-    if (!setup_.wall) provide_fixes(lmp_);  // the box did not exist when pair_style stood before create_box
+    if (setup_.wall)
+      require_step_fix(lmp_);
+    else
+      provide_fixes(lmp_);  // the box did not exist when pair_style stood before create_box
   });
 }
 

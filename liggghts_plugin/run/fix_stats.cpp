@@ -320,13 +320,9 @@ void FixStats::setup_pre_force(int)
 
 void FixStats::pre_force(int)
 {
-  session_->bodies.update(lmp);
   step_of_rows_ = -1;
   in_run_ = true;
-  if (!session_->energy) return;
-  find_energies();
-  const EnergyTally& tally = session_->tally;
-  for (int a = 0; tally.per_atom && a < atom->nlocal; ++a) tally.per_atom.rows()[a][EnergyTally::stored] = 0.0;
+  if (session_->energy) find_energies();
 }
 
 ContactStatistics FixStats::sum_of_ranks(bool with_open) const

@@ -175,6 +175,22 @@ class TestClumps(Deck):
                           dump("vz", 3000, "rigid") + "run 3000\n", ranks=ranks)
             assert self.last_frame("rigid.dump")[1][0] / speed == approx(expected, abs=1e-3)
 
+    def test_walls_follow_their_bodies_without_the_statistics(self):
+        """Walls of mpm beside pairs of Hertz: `unfix granulaw` changes nothing; the fix that the contacts need is missed in a sentence."""
+        begin = self.start("mpm", TILTED, "bodyCompliance on")
+        words = self.words("mpm", "bodyCompliance on")
+        begin = begin.replace(f"pair_style gran model mpm tangential off {words}", "pair_style gran model hertz tangential off")
+        begin = begin.replace(PLANE, PLANE + " " + words).replace("fix p1", "fix p9 all property/global coefficientRestitution peratomtypepair 1 0.5\nfix p1", 1)
+        insert = self.insert(2 * RADIUS, 3 * RADIUS, "0. 0. -1.0", side=RADIUS)
+        found = []
+        for between in ("", "unfix granulaw\n"):
+            (self.folder / "bodies.dump").unlink(missing_ok=True)
+            self.run_deck(begin + insert + f"timestep 2e-8\nrun 1\n{between}thermo 100000\n" + self.bodies(200000) + "run 200000\n")
+            body = [f for f in self.read_bodies() if f][-1][0]
+            found.append([*body.vcm, *body.omega])
+        assert found[0] == found[1]
+        self.refused(begin + insert + "timestep 2e-8\nrun 1\nunfix granulaw_step\nrun 1\n", "fix granulaw_step is missing")
+
     def test_a_sphere_alone_has_no_body_behind_it(self):
         """Beside clumps and among spheres alone: the motion to the bit."""
         found = []
