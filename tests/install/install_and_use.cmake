@@ -1,4 +1,4 @@
-# Installs BUILD into WORK/prefix, builds SOURCE against it in WORK/build, runs it.
+# Installs BUILD into WORK/prefix, builds SOURCE against it in WORK/build, runs it; ONLY headers: compiles each header alone.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -21,6 +21,10 @@ foreach(header IN LISTS headers)
   endforeach()
 endforeach()
 run(${CMAKE_COMMAND} -G "${GENERATOR}" -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix)
+if(ONLY STREQUAL headers)
+  run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2 --target headers)
+  return()
+endif()
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 run(${WORK}/build/consumer)
 run(${WORK}/build/shapes)
