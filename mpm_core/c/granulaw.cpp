@@ -58,6 +58,8 @@ int guarded(int code, granulaw_why* why, Work&& work)
     return failed(GRANULAW_NO_MEMORY, why, "no memory is left");
   } catch (const std::exception& failure) {
     return failed(code, why, failure.what());
+  } catch (...) {
+    return failed(code, why, "unknown failure");
   }
 }
 
@@ -183,11 +185,13 @@ void granulaw_close_contact(granulaw_contact_law* contact)
 
 size_t granulaw_kept(const granulaw_contact_law* contact)
 {
+  if (!contact) return 0;
   return std::visit([](const auto& element) { return element.values; }, contact->element);
 }
 
 int granulaw_turns(const granulaw_contact_law* contact, size_t place)
 {
+  if (!contact) return 0;
   return std::visit(
       [&](const auto& element) {
         std::size_t behind = 0;
@@ -200,6 +204,10 @@ int granulaw_turns(const granulaw_contact_law* contact, size_t place)
 
 granulaw_range granulaw_range_of(const granulaw_contact_law* contact, double r_eff, double m_eff)
 {
+  if (!contact) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    return {none, none, none, none};
+  }
   const Tabulated& normal = normal_of(*contact);
   return {normal.largest_overlap(), normal.yield_overlap(), normal.min_speed(r_eff, m_eff),
           normal.max_speed(r_eff, m_eff)};

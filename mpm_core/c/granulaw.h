@@ -100,12 +100,12 @@ GRANULAW_API int granulaw_contact(const granulaw_law *law, const granulaw_pair *
                                   granulaw_why *why);
 GRANULAW_API void granulaw_close_contact(granulaw_contact_law *contact);
 
-/* Doubles that a contact keeps from step to step: zero in one that begins. */
+/* Doubles that a contact keeps from step to step: zero in one that begins. Of a null contact: 0. */
 GRANULAW_API size_t granulaw_kept(const granulaw_contact_law *contact);
-/* Not 0: the value at this place changes sign where i and j change places. */
+/* Not 0: the value at this place changes sign where i and j change places. Of a null contact: 0. */
 GRANULAW_API int granulaw_turns(const granulaw_contact_law *contact, size_t place);
 
-/* Range of the law for bodies of this R* and m*. */
+/* Range of the law for bodies of this R* and m*. Of a null contact: no numbers (NaN). */
 GRANULAW_API granulaw_range granulaw_range_of(const granulaw_contact_law *contact, double r_eff, double m_eff);
 
 /* Advances n contacts by a step. kept: granulaw_kept() doubles of each contact, one after the other. ledger:

@@ -19,8 +19,12 @@ double rms_near(const Checks& checks, double stiffness, const Of& of)
   return weights > 0 ? std::sqrt(sum / weights) : 0;
 }
 
-AtlasErrors compute(const Atlas& atlas, double stiffness)
+}  // namespace
+
+AtlasErrors errors_of(const Atlas& atlas, double asked)
 {
+  const double stiffness =
+      std::fmin(std::fmax(asked, atlas.grid().stiffnesses.front()), atlas.grid().stiffnesses.back());
   const auto& impacts = atlas.checks();
   const auto& presses = atlas.midplane().checks();
   AtlasErrors e;
@@ -33,20 +37,6 @@ AtlasErrors compute(const Atlas& atlas, double stiffness)
   e.recovery = std::hypot(
       rms_near(presses, stiffness, [](const MidplaneCheck& c) { return c.error_recovery; }), 2 * e.solver);
   return e;
-}
-
-}  // namespace
-
-AtlasErrors errors_of(const Atlas& atlas, double asked)
-{
-  // a fit requires one material many times
-  static thread_local const Atlas* known = nullptr;
-  static thread_local double at = 0;
-  static thread_local AtlasErrors errors;
-  const double stiffness =
-      std::fmin(std::fmax(asked, atlas.grid().stiffnesses.front()), atlas.grid().stiffnesses.back());
-  if (known != &atlas || at != stiffness) known = &atlas, at = stiffness, errors = compute(atlas, stiffness);
-  return errors;
 }
 
 }  // namespace granulaw

@@ -60,15 +60,15 @@ CalibrationByRuns calibrate_by_runs(CalibrationProblem& problem, const LawByRuns
   const Atlas& atlas = problem.laws().atlas();
   for (; result.laws < most_laws;) {
     const CandidateMaterial material = problem.material(q);
-    const SphereLaws& laws = problem.laws().of(material);
-    const double depth = deepest(problem, material, laws);
+    const std::shared_ptr<const SphereLaws> laws = problem.laws().of(material);
+    const double depth = deepest(problem, material, *laws);
     const Curve own = law_by_runs(
-        material.name, solver_material(material), depth_of_law(depth, laws.onset()), [&](double done, const std::string& what) {
+        material.name, solver_material(material), depth_of_law(depth, laws->onset()), [&](double done, const std::string& what) {
           if (progress)
             progress((result.laws + done) / most_laws, fmt::format("law {}: {}", result.laws + 1, what));
         });
     ++result.laws;
-    const Miss miss = miss_of(laws.free(), own, depth);
+    const Miss miss = miss_of(laws->free(), own, depth);
     result.miss_force = miss.force, result.miss_restitution = miss.restitution;
     const SphereLaws coarse(atlas, material);
     problem.laws().set_departure(Departure::between(own, coarse.shape()));

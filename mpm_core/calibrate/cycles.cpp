@@ -83,7 +83,7 @@ void set_cycles_aside(const Atlas& atlas, CalibrationRequest& request)
     for (std::size_t c = cycles.size(); c-- > 0;) {
       const std::string why =
           contradiction(all, cycles, c,
-                        {material, problem.laws().of(material), problem.machine(q, k), problem.composed(k)});
+                        {material, *problem.laws().of(material), problem.machine(q, k), problem.composed(k)});
       if (why.empty()) continue;
       remove(m, cycles[c]);
       m.set_aside.insert(m.set_aside.begin(), why);

@@ -241,7 +241,7 @@ CalibrationProblem::Comparison CalibrationProblem::compare(const Coordinates& q,
 CalibrationProblem::Comparison CalibrationProblem::compare(const Coordinates& q, std::size_t k) const
 {
   const CandidateMaterial m = material(q);
-  return compare(q, k, m, laws_->of(m));
+  return compare(q, k, m, *laws_->of(m));
 }
 
 void CalibrationProblem::limits(const CandidateMaterial& m, double beyond,
@@ -289,7 +289,8 @@ std::string CalibrationProblem::bound_met(const Coordinates& q) const
 
 CalibrationProblem::Misses CalibrationProblem::misses(const Coordinates& q, const CandidateMaterial& m) const
 {
-  const SphereLaws& laws = laws_->of(m);
+  const std::shared_ptr<const SphereLaws> kept = laws_->of(m);
+  const SphereLaws& laws = *kept;
   Misses found;
   for (std::size_t k = 0; k < request_.measurements.size(); ++k) {
     const Comparison c = compare(q, k, m, laws);

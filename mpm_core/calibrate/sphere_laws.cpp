@@ -44,6 +44,7 @@ constexpr double sphere_mass = 4.0 / 3.0 * M_PI;  // over rho R^3
 
 SphereLaws::SphereLaws(const Atlas& atlas, const MaterialRatios& material, LawShape shape)
     : material_(material),
+      errors_(errors_of(atlas, material.stiffness)),
       atlas_(&atlas),
       energy_unit_(energy_unit(sphere_mass, 1 / material.stiffness)),
       shape_(std::move(shape)),
@@ -111,7 +112,7 @@ void SphereLawsCache::set_departure(Departure departure)
   kept_.clear();
 }
 
-const SphereLaws& SphereLawsCache::of(const CandidateMaterial& material)
+std::shared_ptr<const SphereLaws> SphereLawsCache::of(const CandidateMaterial& material)
 {
   const MaterialRatios wanted = within(atlas_, MaterialRatios::of(material));
   Key key{wanted.stiffness, wanted.poisson_ratio};
@@ -124,8 +125,8 @@ const SphereLaws& SphereLawsCache::of(const CandidateMaterial& material)
     kept_.splice(kept_.begin(), kept_, found);
     return kept_.front().second;
   }
-  kept_.emplace_front(std::piecewise_construct, std::forward_as_tuple(std::move(key)),
-                      std::forward_as_tuple(atlas_, material, departure_ ? &*departure_ : nullptr));
+  kept_.emplace_front(std::move(key),
+                      std::make_shared<const SphereLaws>(atlas_, material, departure_ ? &*departure_ : nullptr));
   if (kept_.size() > most) kept_.pop_back();
   return kept_.front().second;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <list>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "calibrate/atlas_errors.hpp"
 #include "calibrate/parameters.hpp"
 #include "atlas/atlas.hpp"
 #include "atlas/departure.hpp"
@@ -26,7 +28,7 @@ class SphereLaws
   SphereLaws& operator=(const SphereLaws&) = delete;
 
   const MaterialRatios& material() const { return material_; }
-  const Atlas* atlas() const { return atlas_; }
+  const AtlasErrors& errors() const { return errors_; }
   double onset() const { return free_.onset(); }  ///< overlap where yield begins
 
   /// An impact on the rigid wall at v = sqrt(rho V^2/Y); faster than fastest() counts as that.
@@ -47,6 +49,7 @@ class SphereLaws
   double contact_time(double x, double residual, double restitution) const;
 
   MaterialRatios material_;
+  AtlasErrors errors_;
   const Atlas* atlas_;
   double energy_unit_;
   LawShape shape_;
@@ -61,7 +64,7 @@ class SphereLawsCache
 {
  public:
   explicit SphereLawsCache(const Atlas& atlas) : atlas_(atlas) {}
-  const SphereLaws& of(const CandidateMaterial& material);
+  std::shared_ptr<const SphereLaws> of(const CandidateMaterial& material);
   const Atlas& atlas() const { return atlas_; }
   /// The departure of all laws whose hardening is not linear, from now on.
   void set_departure(Departure departure);
@@ -71,7 +74,7 @@ class SphereLawsCache
   static constexpr std::size_t most = 32;
   const Atlas& atlas_;
   std::optional<Departure> departure_;
-  std::list<std::pair<Key, SphereLaws>> kept_;
+  std::list<std::pair<Key, std::shared_ptr<const SphereLaws>>> kept_;
 };
 
 }  // namespace granulaw

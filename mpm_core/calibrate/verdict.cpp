@@ -33,7 +33,8 @@ std::string two_digits(double value)
 /// The range of the data, as the beginning of a sentence.
 std::string span_of(const CalibrationProblem& problem, const Calibration& c)
 {
-  const SphereLaws& laws = problem.laws().of(c.material);
+  const std::shared_ptr<const SphereLaws> kept = problem.laws().of(c.material);
+  const SphereLaws& laws = *kept;
   Reach all;
   for (std::size_t k = 0; k < problem.request().measurements.size(); ++k) {
     const Measurement& m = problem.request().measurements[k];

@@ -9,6 +9,10 @@
 
 #include "contact/cubic.hpp"
 
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(__ASSOCIATIVE_MATH__)
+#error "granulaw's contact laws need IEEE arithmetic: compile without -ffast-math (-Ofast, -fassociative-math, -ffinite-math-only)"
+#endif
+
 namespace granulaw {
 
 /// Changes of a CurveTable by the speed of an impact.

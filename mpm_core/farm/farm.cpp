@@ -11,7 +11,12 @@ namespace granulaw {
 
 std::vector<RunOutcome> Farm::run(const std::vector<RunJob>& jobs, const Progress& progress)
 {
-  std::vector<RunOutcome> outcomes = make(jobs, progress);
+  std::vector<RunOutcome> outcomes;
+  try {
+    outcomes = make(jobs, progress);
+  } catch (const Error& error) {  // failed runs are outcomes
+    throw FarmBroken(error.what());
+  }
   for (const RunOutcome& outcome : outcomes) {
     if (outcome.from_cache) {
       ++count_.from_cache;

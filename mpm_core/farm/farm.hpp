@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct FarmCount
   double cpu_s_saved = 0;  ///< of the runs taken from the cache, when they were made
 };
 
+/// What ends the program on this process because its farm broke: a rank had to stop, or the cache cannot be used. No
+/// Error, so that nobody takes it for a run that failed and goes on without it while other ranks leave.
+class FarmBroken : public std::runtime_error
+{
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Makes batches of independent runs. The outcomes depend on neither the number of workers nor the order in
 /// which they end: each run is made by one thread, and the outcomes are in the order of the jobs.
 class Farm
@@ -29,7 +38,7 @@ class Farm
 
   /// All outcomes of a batch. A run that fails is tried again on a finer grid; if that fails too its outcome
   /// says why, and the caller decides what to do without it. Whatever `progress` throws stops the batch and
-  /// goes through; what is finished by then is in the cache.
+  /// goes through; what is finished by then is in the cache. Throws FarmBroken where runs cannot be made.
   std::vector<RunOutcome> run(const std::vector<RunJob>& jobs, const Progress& progress = {});
 
   /// The same where no run is dispensable: throws Error with the sentence of the first that failed.

@@ -33,7 +33,7 @@ enum Kind : int {
   ended,    ///< index, outcome
   running,  ///< index, share done
   trouble,  ///< sentence: this rank has to stop
-  stopped   ///< nothing more will come
+  stopped   ///< nothing more will come of this batch
 };
 
 struct Message
@@ -87,12 +87,19 @@ std::string sentence_of(const std::exception_ptr& error)
     return "not enough memory";
   } catch (const Error& e) {
     return e.what();
+  } catch (const FarmBroken& e) {
+    return e.what();
   } catch (const std::exception&) {
     return "a defect of this program has ended the runs on one rank: please report the command with its "
            "files";
   } catch (...) {
     return "stopped";
   }
+}
+
+std::string trouble_of(Message& m)
+{
+  return fmt::format("rank {}: {}", m.from, printable(unpack<std::string>(m.content)));
 }
 
 void broadcast(std::string& bytes)
@@ -150,7 +157,7 @@ std::vector<int> MpiFarm::agree(const std::vector<RunJob>& jobs) const
   return threads;
 }
 
-void MpiFarm::direct(RunQueue& queue, const std::vector<RunJob>& jobs, std::vector<int> room,
+std::string MpiFarm::direct(RunQueue& queue, const std::vector<RunJob>& jobs, std::vector<int> room,
                      const Progress& progress) const
 {
   const auto others = [&](Kind kind, const std::string& sentence) {
@@ -198,7 +205,7 @@ void MpiFarm::direct(RunQueue& queue, const std::vector<RunJob>& jobs, std::vect
           const auto index = unpack<std::size_t>(m->content);
           queue.report(index, unpack<double>(m->content));
         } else if (m->kind == trouble) {
-          fail(fmt::format("rank {}", m->from), unpack<std::string>(m->content));
+          throw FarmBroken(trouble_of(*m));
         }
       }
       if (Clock::now() - last_report < report_every && !queue.finished()) continue;
@@ -218,9 +225,17 @@ void MpiFarm::direct(RunQueue& queue, const std::vector<RunJob>& jobs, std::vect
     throw;
   }
   others(end, "");
+  std::string sentence;
+  for (int left = size_ - 1; left > 0;) {
+    std::optional<Message> m = receive();
+    if (!m) std::this_thread::sleep_for(look_every);
+    if (m && m->kind == trouble) sentence = trouble_of(*m);
+    if (m && m->kind == stopped) --left;
+  }
+  return sentence;
 }
 
-void MpiFarm::work(const std::vector<RunJob>& jobs, const Progress& progress) const
+std::exception_ptr MpiFarm::work(const std::vector<RunJob>& jobs, const Progress& progress) const
 {
   std::optional<WorkerPool> pool(threads_);
   std::exception_ptr own_trouble;
@@ -255,12 +270,13 @@ void MpiFarm::work(const std::vector<RunJob>& jobs, const Progress& progress) co
         const auto index = unpack<std::size_t>(m->content);
         pool->start(index, jobs[index]);
       } else if (m->kind == end) {
-        return;
+        send(0, stopped);
+        return own_trouble;
       } else if (m->kind == stop) {
         pool.reset();
         send(0, stopped);
         if (own_trouble) std::rethrow_exception(own_trouble);
-        throw Error(unpack<std::string>(m->content));
+        throw FarmBroken(unpack<std::string>(m->content));
       }
     }
   }
@@ -270,13 +286,18 @@ std::vector<RunOutcome> MpiFarm::make(const std::vector<RunJob>& jobs, const Pro
 {
   const std::vector<int> threads = agree(jobs);
   std::vector<RunOutcome> outcomes(jobs.size());
+  std::string sentence;
+  std::exception_ptr own_trouble;
   if (rank_ == 0) {
     RunQueue queue(jobs, cache_);
-    direct(queue, jobs, threads, progress);
+    sentence = direct(queue, jobs, threads, progress);
     outcomes = queue.take();
   } else {
-    work(jobs, progress);
+    own_trouble = work(jobs, progress);
   }
+  broadcast(sentence);
+  if (own_trouble) std::rethrow_exception(own_trouble);
+  if (!sentence.empty()) throw FarmBroken(sentence);
   share(outcomes, rank_ == 0);
   return outcomes;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <exception>
+
 #include "farm/farm.hpp"
 #include "farm_mpi/mpi_session.hpp"
 
@@ -16,8 +18,8 @@ namespace granulaw {
 ///
 /// `progress` gets the fraction of the whole batch on rank 0; on the others it gets 0 and the rank's own run,
 /// only to be asked whether to stop. If a rank has to stop (its `progress` throws, or a run ends in another
-/// exception than Error), that exception goes through there, and every other rank throws Error with its
-/// sentence. A rank that dies is the launcher's business: mpirun ends the others.
+/// exception than Error), that exception goes through there, and every other rank throws FarmBroken with its
+/// sentence, also where all runs of the batch had ended. A rank that dies is the launcher's business: mpirun ends the others.
 class MpiFarm : public Farm
 {
  public:
@@ -29,13 +31,14 @@ class MpiFarm : public Farm
 
  private:
   std::vector<RunOutcome> make(const std::vector<RunJob>& jobs, const Progress& progress) override;
-  /// Threads of each rank. Throws Error, on all ranks, if their lists of jobs differ.
+  /// Threads of each rank. Throws Error (run(): FarmBroken), on all ranks, if their lists of jobs differ.
   std::vector<int> agree(const std::vector<RunJob>& jobs) const;
-  /// Rank 0; `room`: threads without a run, for each rank.
-  void direct(RunQueue& queue, const std::vector<RunJob>& jobs, std::vector<int> room,
+  /// Rank 0; `room`: threads without a run, for each rank. Returns the sentence of a rank that has to stop after the last
+  /// run; empty: none has.
+  std::string direct(RunQueue& queue, const std::vector<RunJob>& jobs, std::vector<int> room,
               const Progress& progress) const;
-  /// The other ranks.
-  void work(const std::vector<RunJob>& jobs, const Progress& progress) const;
+  /// The other ranks. Returns what this one has to stop for after the last run; null: nothing.
+  std::exception_ptr work(const std::vector<RunJob>& jobs, const Progress& progress) const;
 
   int rank_, size_, threads_;
   RunCache cache_;

@@ -153,6 +153,9 @@ PairLaw resolve_pair(const Law& law, const std::string& a, const std::string& b,
       PairMapping::deformable_partner(yielding.material.e_star(), partner.material.e_star());
   if (a == b) std::tie(radius_a, radius_b) = std::minmax({radius_a, radius_b});
   const double ratio = swap ? radius_a / radius_b : radius_b / radius_a;
+  if (std::isnan(ratio))
+    fail(where, "the radii of a pair have no ratio", fmt::format("{:g} and {:g}", radius_a, radius_b),
+         "numbers over 0, at most one of them infinity");
   const TwoBodyLaw* own = nearest(law, a, b, 1 / (1 + ratio));
   if (!own) return {{&yielding.curve, mapping}, &yielding};
   const bool composed = own->law.certificate.origin == composed_origin;

@@ -114,6 +114,8 @@ void check_body(const BodyLaw& body, const std::string& where)
       // NaN fails as well; damage_number_max alone may be infinite (elastic)
       fail(where, fmt::format("certificate '{}' is out of range", c.field.name), fmt::format("{:.6g}", value),
            c.is_signed ? "-1 or more" : "0 or more");
+  if (m.yields() && std::isinf(body.certificate.damage_number_max))
+    fail(where, "certificate 'max_inertia' of a body that yields is infinite");
   check_omitted_axis(body.certificate.omitted_axis, where);
   if (std::find(std::begin(h5::origins), std::end(h5::origins), body.certificate.origin) ==
       std::end(h5::origins))
@@ -138,9 +140,9 @@ void check_own_law(const std::string& name, const TwoBodyLaw& own, bool one_mate
   if (!own.law.material.yields() && !composed)
     fail(where, "a pair's own law by runs needs a body that yields", shortened(name));
   if (!own.law.is_sphere()) fail(where, "a pair's own law is one of homogeneous spheres", shortened(name));
-  const double least = one_material ? std::nextafter(1.0, 2.0) : 0.01;
+  const double least = one_material ? std::nextafter(1.0, 2.0) : 1 / most_unlike_sizes;
   const bool wall = composed && (std::isinf(own.radius_ratio) || (own.radius_ratio == 0 && !one_material));
-  if (!wall && !(own.radius_ratio >= least && own.radius_ratio <= 100))
+  if (!wall && !(own.radius_ratio >= least && own.radius_ratio <= most_unlike_sizes))
     fail(where,
          fmt::format("'{}' of the pair {} is out of range", h5::radius_ratio_of_runs.name, shortened(name)),
          fmt::format("{:.6g}", own.radius_ratio), one_material ? "over 1, up to 100" : "0.01 to 100");

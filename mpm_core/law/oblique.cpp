@@ -93,6 +93,8 @@ ObliqueAnswer replay_oblique(const PairLaw& pair, const ObliqueThrow& thrown, Ta
                              double damping_ratio, int steps)
 {
   const double e_star = pair.mapping.e_star_pair(), m = thrown.m_eff(), r = thrown.r_eff();
+  if (!(thrown.velocity > 0 && std::isfinite(thrown.velocity) && std::isfinite(thrown.tangential_velocity) && m > 0 && r > 0 && steps > 0))
+    fail("replay of an oblique impact", "velocity, mass, radius and steps must be positive");
   if (const double fastest = pair.max_speed(r, m); thrown.velocity > fastest)
     fail("replay of an oblique impact", "is faster than the law holds for", fmt::format("{:.4g} m/s", thrown.velocity),
          fmt::format("up to {:.4g} m/s", fastest));

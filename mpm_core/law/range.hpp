@@ -11,6 +11,8 @@ inline constexpr double deepest_law = 0.5, fastest_law = 0.09;
 inline constexpr double shallowest_table = 0.2;
 /// `mpm table` states a pair's error up to this ratio of radii.
 inline constexpr double largest_radius_ratio = 10;
+/// A law file holds pairs up to this ratio of radii.
+inline constexpr double most_unlike_sizes = 100;
 /// Laws of one file, of bodies and of pairs at each ratio of radii, at most: every pair of 30 materials has 1400.
 inline constexpr std::size_t most_laws_of_file = 2048;
 

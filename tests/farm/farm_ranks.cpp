@@ -8,6 +8,8 @@
 //        failing    runs that fail once, always or not at all; prints what becomes of them on rank 0
 //        broken     a run on the last rank ends in another exception than Error
 //        stop-first, stop-last   the progress of the first or last rank throws
+//        stop-late  the progress of the last rank throws when all runs have ended; then another batch
+//        without    as a maker of laws that does without a failed pair: what the last rank throws ends all the same
 //        alone      the last rank ends with an error of its own before the batch
 //        differ     the last rank has other runs to make
 //        sleep      runs that only sleep: FILE has lines "COST SECONDS"; rank 0 prints the seconds that the
@@ -17,6 +19,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -146,6 +149,33 @@ int act(const std::string& what, const std::string& output, Farm& farm, int rank
     farm.run({idle("a", 60), idle("b", 60), idle("c", 60)}, [stops](double, const std::string&) {
       if (stops) throw UserStop{};
     });
+  } else if (what == "stop-late") {
+    std::atomic<bool> ending = false, ended = false;
+    const auto end_late = [&, last](const RunOptions&) {
+      if (!last) return;
+      ending = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(400));  // longer than from report to report
+      ended = true;
+    };
+    farm.run({idle("a", 0.1, end_late), idle("b", 0.1, end_late), idle("c", 0.1, end_late)}, [&](double, const std::string&) {
+      if (!ending) return;
+      if (!ended) {  // the next report comes with the last outcome
+        while (!ended) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));  // rank 0 has that outcome
+      throw UserStop{};
+    });
+    farm.run(some);
+  } else if (what == "without") {
+    const auto break_last = [last](const RunOptions&) {
+      if (last) throw std::bad_alloc();
+    };
+    try {
+      farm.run({idle("a", 0.2, break_last), idle("b", 0.2, break_last), idle("c", 0.2, break_last)});
+    } catch (const Error&) {
+    }
+    farm.run(some);
   } else if (what == "alone") {
     if (last) fail("the last rank", "has lost its disk");
     farm.run(some);

@@ -62,6 +62,8 @@ def test_trouble():
     for what, code, sentence in (("broken", 1, "rank 2: not enough memory"),
                                  ("stop-first", 130, "stopped by the user"),
                                  ("stop-last", 130, "rank 2: stopped"),
+                                 ("stop-late", 130, "rank 2: stopped"),
+                                 ("without", 1, "rank 2: not enough memory"),
                                  ("differ", 1, "MPI: rank 2 asks for other runs than rank 0"),
                                  ("alone", 1, "the last rank: has lost its disk")):
         done = run(3, FARM_RANKS, what, code=code)

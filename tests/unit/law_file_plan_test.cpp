@@ -205,6 +205,7 @@ TEST(LawFilePlan, RefusesWhatCannotBeMade)
   refuses("damage_number: cannot be used", [](auto& r) { r.damage_number = 1; });
   refuses("tolerance: cannot be used", [](auto& r) { r.tolerance = std::nan(""); });
   refuses("radius_ratio: cannot be used", [](auto& r) { r.radius_ratio = 0.5; });
+  refuses("radius_ratio: cannot be used", [](auto& r) { r.radius_ratio = 200; });  // no file holds it
 }
 
 }  // namespace granulaw::law_file_plan_test

@@ -4,12 +4,15 @@
 #include <hdf5.h>
 
 #include <bit>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 
 #include "law/error_bound.hpp"
 #include "law/layout.hpp"
+#include "law/oblique.hpp"
 #include "scratch_folder.hpp"
 #include "synthetic_law.hpp"
 #include "without_checksum.hpp"
@@ -305,6 +308,7 @@ TEST_F(LawFile, DamagesAreNamed)
            {set(material + "poisson_ratio", 0.5), ""},
            {set(material + "yield_stress", NAN), ""},
            {set(body + "certificate/max_inertia", NAN), ""},
+           {set(body + "certificate/max_inertia", INFINITY), "infinite"},
            {replaced(force, H5T_STD_I32LE, 129), "force"},
            {replaced(force, H5T_C_S1, 129), "force"},
            // 2^50 doubles that are declared but not stored
@@ -417,6 +421,8 @@ TEST(Law, ResolvesPairsByTheWeakerBody)
   EXPECT_DOUBLE_EQ(resolve_pair(law, "wall", "powder", "test").mapping.sqrt_lambda, 1.0);
   EXPECT_DOUBLE_EQ(resolve_pair(law, "powder", "powder", "test").mapping.sqrt_lambda, 2.0);
   expect_error("did you mean 'powder'", [&] { resolve_pair(law, "powdr", "wall", "deck"); });
+  const double infinite = std::numeric_limits<double>::infinity();
+  expect_error("inf and inf", [&] { resolve_pair(law, "glass", "powder", "deck", infinite, infinite); });
   Law fewer = law;
   fewer.pairs = {{"powder", "wall"}};
   EXPECT_THROW(resolve_pair(fewer, "powder", "powder", "deck"), Error);
@@ -427,6 +433,18 @@ TEST(Law, ResolvesPairsByTheWeakerBody)
   EXPECT_NO_THROW(resolve_pair(shaped, "powder", "wall", "deck"));
   for (const char* part : {"'powder' is that of a body 'core-shell'", "powder:powder, powder:wall"})
     expect_error(part, [&] { resolve_pair(shaped, "glass", "powder", "deck"); });
+}
+
+TEST(ReplayOblique, NeedsNumbersThatAnImpactHas)
+{
+  const Law law = SyntheticLaw{}.law();
+  const PairLaw pair = resolve_pair(law, "powder", "wall", "test");
+  const auto refused = [&](double velocity, int steps) {
+    ObliqueThrow thrown;
+    thrown.radius = 1e-3, thrown.mass = 1e-6, thrown.velocity = velocity, thrown.tangential_velocity = 1;
+    expect_error("must be positive", [&] { replay_oblique(pair, thrown, TangentialKind::history, 0.3, 0.1, steps); });
+  };
+  refused(0, 100), refused(-1, 100), refused(std::numeric_limits<double>::quiet_NaN(), 100), refused(1, 0);
 }
 
 }  // namespace granulaw::law_file_test

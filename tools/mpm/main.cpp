@@ -19,6 +19,7 @@
 #include "base/version.hpp"
 #include "commands.hpp"
 #include "deck/questions.hpp"
+#include "farm/farm.hpp"
 #include "ranks.hpp"
 #include "terminal.hpp"
 
@@ -200,6 +201,8 @@ Outcome run(int argc, char** argv)
     return {3, error.what()};
   } catch (const Error& error) {
     return {names_an_option(error.what()) ? 2 : 1, error.what()};
+  } catch (const FarmBroken& error) {
+    return {1, error.what()};
   } catch (const std::filesystem::filesystem_error& error) {
     return {1, fmt::format("{}: cannot be read or written", printable(error.path1().string()))};
   } catch (const std::exception&) {

@@ -97,7 +97,7 @@ Prediction predict_curve(const Measurement& m, const CurveModel& model, const Ma
 
 Prediction predict_platens(const Measurement& m, const Trial& t)
 {
-  const AtlasErrors atlas = errors_of(*t.laws.atlas(), t.laws.material().stiffness);
+  const AtlasErrors& atlas = t.laws.errors();
   const double unit = 4.0 / 3.0 * t.material.e_star() * m.radius * m.radius;
   return predict_curve(m, {t.laws.midplane(), m.radius, unit, atlas.midplane_force, atlas.recovery},
                        t.machine);
@@ -105,7 +105,7 @@ Prediction predict_platens(const Measurement& m, const Trial& t)
 
 Prediction predict_flat(const Measurement& m, const Trial& t)
 {
-  const AtlasErrors atlas = errors_of(*t.laws.atlas(), t.laws.material().stiffness);
+  const AtlasErrors& atlas = t.laws.errors();
   const double unit = 4.0 / 3.0 * t.material.e_star() * m.radius * m.radius;
   return predict_curve(m, {t.laws.free(), m.radius, unit, atlas.force, atlas.recovery}, t.machine);
 }
@@ -113,7 +113,7 @@ Prediction predict_flat(const Measurement& m, const Trial& t)
 Prediction predict_indenter(const Measurement& m, const Trial& t)
 {
   const ComposedModel::IndenterLaw& law = t.composed->law(t.material);
-  const AtlasErrors atlas = errors_of(*t.laws.atlas(), MaterialRatios::of(t.material).stiffness);
+  const AtlasErrors& atlas = t.laws.errors();
   // composed laws were held against runs, whose own error comes on top
   const double error = std::hypot(t.composed->error(law.specimen).force, atlas.solver);
   Prediction p = predict_curve(m, {law.curve, law.length, law.force, error, atlas.recovery}, t.machine);

@@ -33,7 +33,7 @@ Prediction predict_restitution(const Measurement& m, const Trial& t)
 {
   Prediction p;
   p.errors.resize(m.kind->smooth_errors);
-  const AtlasErrors atlas = errors_of(*t.laws.atlas(), t.laws.material().stiffness);
+  const AtlasErrors& atlas = t.laws.errors();
   const double slow = std::log(
       yield_velocity(t.material.e_star(), t.material.yield_stress, m.sphere_density(t.material.density)));
   constexpr double decades = 6.9;  // ln 1000: of V/V_y, over which the errors were measured

@@ -163,6 +163,7 @@ bool LawCheck::agrees() const
 LawCheck check_law(const Law& law, const LawCheckRequest& request, const Progress& progress,
                    const std::function<void(const FreshImpact&)>& made)
 {
+  if (request.impacts < 0) fail("impacts", "cannot be used", std::to_string(request.impacts), "0 or more");
   return Checking(law, request, progress, made)();
 }
 

@@ -34,7 +34,7 @@ void check_numbers(const LawFileRequest& r)
   check_range("depth", r.depth, 0, deepest_law);
   check_range("damage_number", r.damage_number, 0, fastest_law);
   check_range("tolerance", r.tolerance, 1e-4, 0.5);
-  check_range("radius_ratio", r.radius_ratio, 1, 1e6);
+  check_range("radius_ratio", r.radius_ratio, 1, most_unlike_sizes);
   check_range("slowest", r.slowest, 0, 1e9);
 }
 

@@ -308,7 +308,7 @@ TEST(Calibrate, DropsGiveBackYieldAndSaturationStress)
 {
   SphereLawsCache laws(atlas());
   Measurement m = drops(stone(), {0.2, 0.5, 1, 2, 4, 8, 16, 20});
-  const std::vector<double> e = m.kind->predict(m, {voce(), laws.of(voce())}).values;
+  const std::vector<double> e = m.kind->predict(m, {voce(), *laws.of(voce())}).values;
   for (std::size_t k = 0; k < e.size(); ++k) m.data[k].y = e[k], m.data[k].sd = 0.003 * e[k];
   const CalibrationProblem problem(atlas(), request_for_voce(m));
   const Calibration c = calibrate(problem);
@@ -332,7 +332,7 @@ TEST(CalibrateSlow, ALawByRunsCorrectsTheFit)
 {
   SphereLawsCache laws(atlas());
   Measurement m = drops(stone(), {0.2, 0.5, 1, 2, 4, 8});
-  const std::vector<double> e = m.kind->predict(m, {voce(), laws.of(voce())}).values;
+  const std::vector<double> e = m.kind->predict(m, {voce(), *laws.of(voce())}).values;
   for (std::size_t k = 0; k < e.size(); ++k) m.data[k].y = e[k], m.data[k].sd = 0.01 * e[k];
   CalibrationProblem problem(atlas(), request_for_voce(m));
   ThreadFarm farm(2);
