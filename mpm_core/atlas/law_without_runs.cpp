@@ -37,13 +37,7 @@ PlannedPair plan_pair(const LawMaterial& a, const LawMaterial* b, const SceneSiz
 {
   PlannedPair pair{a.name, b ? b->name : wall_name};
   if (!b) return pair;
-  const bool one_material = a.name == b->name;
-  if (!one_material || sizes.largest_for_rule() > 1)
-    pair.by_rule = pair.stated = pair_rule_error(a, *b, sizes.largest_for_rule());
-  if (composable) {
-    pair.composed_at = composed_ratios(sizes, one_material);
-    pair.stated = {};  // each composed law states its own
-  }
+  if (composable) pair.composed_at = composed_ratios(sizes, a.name == b->name);
   return pair;
 }
 
@@ -61,8 +55,7 @@ ComposedLaws compose_laws(const Atlas& atlas, const PairBody& yielding, const Pa
 
 void add_pair_laws(Law& law, const PlannedPair& pair, ComposedLaws made)
 {
-  const ReductionError& stated = made.not_composed.empty() ? pair.stated : pair.by_rule;
-  law.pairs.push_back({pair.a, pair.b, stated.force, stated.restitution});
+  law.pairs.push_back({pair.a, pair.b});
   if (!made.laws.empty()) law.pair_laws[pair.name()] = std::move(made.laws);
   for (const auto& [ratio, reason] : made.not_composed)
     law.provenance[fmt::format("not_composed.{}.{:.4g}", pair.name(), ratio)] = reason;

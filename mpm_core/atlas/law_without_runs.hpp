@@ -16,28 +16,19 @@ namespace granulaw {
 struct SceneSizes
 {
   double radius_ratio = 1;  ///< largest ratio of two spheres' radii, 1 or more: pairs are composed up to it
-  double rule_radius_ratio = 0;  ///< that for which the pair rule's error is stated; 0: radius_ratio
-  bool thick_walls = true;       ///< either of two bodies may also be a deformable wall
-
-  double largest_for_rule() const { return rule_radius_ratio > 0 ? rule_radius_ratio : radius_ratio; }
+  bool thick_walls = true;  ///< either of two bodies may also be a deformable wall
 };
 
 /// A pair of a law file, before its law is made.
 struct PlannedPair
 {
   std::string a, b;  ///< names; b may be wall_name, a is not
-  /// Cost of the pair rule, whichever of the two bodies is the larger; 0 where the rule is exact.
-  ReductionError by_rule{};
-  /// Statement of the file about the pair beside its laws' certificates: by_rule, or what other radii cost its
-  /// own law; 0 of composed laws.
-  ReductionError stated{};
   /// Partner's radius over the yielding body's of each law that will be composed, ascending
   /// (composed_law.hpp); infinity: a deformable wall; 0: the yielding body is one. None: the pair follows the
   /// rule, or has its own law by runs.
   std::vector<double> composed_at{};
 
   std::string name() const { return a + ":" + b; }
-  bool is_extrapolated() const { return !by_rule.within_measured || !stated.within_measured; }
 };
 
 /// Plans the pair of two homogeneous spheres, or of one and the rigid wall (no `b`). `composable`: the atlas
@@ -54,7 +45,7 @@ ComposedLaws compose_laws(const Atlas& atlas, const PairBody& yielding, const Pa
                           const std::vector<double>& ratios, const LawRange& range);
 
 /// Adds the pair and its laws. At a ratio that cannot be composed the law at the nearest one stands in, or the
-/// pair rule where there is none: the pair then states the rule's error, and the provenance has the reason.
+/// pair rule where there is none, of which no error is stated; the provenance has the reason.
 void add_pair_laws(Law& law, const PlannedPair& pair, ComposedLaws made);
 
 /// A law file's laws without a run of the solver: spheres of these materials by the atlas, which holds them

@@ -4,8 +4,6 @@
 
 #include <map>
 
-#include "law/damage_number.hpp"
-
 namespace granulaw {
 
 namespace {
@@ -27,18 +25,6 @@ LawKind kind_of(const TwoBodyLaw* of_pair, const std::string& a, const std::stri
   const Certificate& c = of_pair->law.certificate;
   if (c.origin != composed_origin) return LawKind::two_body;
   return c.verification_impacts > 0 ? LawKind::corrected : LawKind::composed;
-}
-
-/// v^2 of the velocity axis up to which the bound of the pair rule is known (docs/evidence/pairs.md).
-constexpr double measured_by_rule = 0.002;
-
-/// I of like spheres there.
-double damage_number_of_rule(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b)
-{
-  constexpr double radius = 1e-3;
-  const double m_eff = effective_mass(law.bodies.at(a).mass(radius), law.bodies.at(b).mass(radius));
-  const double v = pair.axis_speed(radius / 2, m_eff, 1.0);
-  return measured_by_rule * damage_number(pair, 1.0) / (v * v);
 }
 
 /// Linear between the speeds, from none at standstill; beyond the last that of the last.
@@ -81,16 +67,6 @@ ErrorBound ErrorBound::at(double v) const
           axis_restitution + std::abs(cost.restitution)};
 }
 
-ErrorBound ErrorBound::up_to(double v) const
-{
-  ErrorBound bound = *this;
-  std::vector<AxisCost>& costs = bound.omitted_axis;
-  if (costs.empty() || costs.back().speed <= v) return bound;
-  std::erase_if(costs, [v](const AxisCost& cost) { return cost.speed >= v; });
-  costs.push_back(cost_at(omitted_axis, v));
-  return bound;
-}
-
 ErrorBound ErrorBound::with(const ErrorBound& other) const
 {
   return {std::hypot(force, other.force), std::hypot(restitution, other.restitution),
@@ -100,6 +76,7 @@ ErrorBound ErrorBound::with(const ErrorBound& other) const
 
 ErrorBound ErrorBound::worst(const ErrorBound& other) const
 {
+  if (!stated() || !other.stated()) return {};
   return {std::max(force, other.force), std::max(restitution, other.restitution),
           std::max(relative_restitution, other.relative_restitution), larger_costs(omitted_axis, other.omitted_axis),
           std::max(axis_restitution, other.axis_restitution)};
@@ -113,7 +90,7 @@ std::string ErrorBound::text() const
   if (relative > 0) e = (restitution > 0 ? e + " and " : "") + fmt::format("{:.2g} %", 100 * relative);
   const std::string slow = fmt::format("F_max {:.2g} %, e {}", 100 * force, e);
   if (omitted_axis.empty()) return slow;
-  ErrorBound largest;
+  ErrorBound largest = at(omitted_axis.back().speed);
   for (const AxisCost& cost : omitted_axis) largest = largest.worst(at(cost.speed));
   return slow + ", rising with speed to " + largest.text();
 }
@@ -169,12 +146,8 @@ PairStatement PairStatement::at_distance(double off) const
   PairStatement at = *this;
   at.size_off = off;
   if (at.covers_size()) return at;
-  if (rule.stated())
-    at.size_off = 0;
-  else
-    at.bound = bound.with(size_error(off));
-  if (kind == LawKind::reduced) return at;
-  if (rule.stated()) at.bound = bound.with(rule);
+  const bool measured = kind != LawKind::two_body && bound.stated();
+  at.bound = measured ? bound.with(size_error(off)) : ErrorBound{};
   if (kind == LawKind::single) at.kind = LawKind::reduced;
   return at;
 }
@@ -184,15 +157,9 @@ PairStatement statement_of(const Law& law, const PairLaw& pair, const std::strin
   PairStatement s;
   const BodyLaw& body = *pair.yielding;
   s.kind = kind_of(pair_law(law, pair, a, b), a, b);
-  s.bound = bound_of(body);
+  if (s.kind != LawKind::reduced) s.bound = bound_of(body);
   s.damage_number_max = body.certificate.damage_number_max;
   if (body.shape) s.covered = body.shape->covered();
-  if (const LawPair* entry = law.find_pair(a, b))
-    s.rule = {entry->reduction_error_force, 0, entry->reduction_error_restitution};
-  if (s.kind != LawKind::reduced) return s;
-  s.bound = s.bound.with(s.rule).up_to(std::sqrt(measured_by_rule));
-  if (law.bodies.contains(a) && law.bodies.contains(b))
-    s.damage_number_max = std::min(s.damage_number_max, damage_number_of_rule(law, pair, a, b));
   return s;
 }
 

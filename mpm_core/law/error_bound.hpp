@@ -16,7 +16,7 @@ struct ErrorBound
 {
   double force = 0;                 ///< of F_max, relative
   double restitution = 0;           ///< of e, absolute
-  double relative_restitution = 0;  ///< of e, relative: laws by runs and the pair rule state it so
+  double relative_restitution = 0;  ///< of e, relative: laws by runs state it so
   /// Cost of a velocity axis that the law lacks, by speed: at() adds it.
   std::vector<AxisCost> omitted_axis{};
   double axis_restitution = 0;  ///< of e, relative: that cost at one speed
@@ -25,8 +25,6 @@ struct ErrorBound
   /// The same of an impact at the speed `v` of the velocity axis (PairLaw::axis_speed). The cost is a known difference,
   /// no chance: it adds in full.
   ErrorBound at(double v) const;
-  /// The same of impacts up to that speed.
-  ErrorBound up_to(double v) const;
   /// Absolute error bound of e for an impact whose coefficient of restitution is `e`.
   double restitution_at(double e) const
   {
@@ -34,7 +32,7 @@ struct ErrorBound
   }
   /// With an error of another cause: independent ones add as squares.
   ErrorBound with(const ErrorBound& other) const;
-  /// The larger of each.
+  /// The larger of each; none where one is not stated.
   ErrorBound worst(const ErrorBound& other) const;
   /// "F_max 0.72 %, e 0.0028"; a relative error of e has its per cent sign. "not stated". Without its axis:
   /// "F_max 0.72 %, e 0.0028, rising with speed to F_max 8 %, e 0.0028 and 7.3 %".
@@ -86,16 +84,14 @@ const char* name_of(LawKind kind);
 struct PairStatement
 {
   LawKind kind = LawKind::single;
-  ErrorBound bound;
-  /// Stated for other sizes than the law's: up to the ratio of radii that the file was made for.
-  ErrorBound rule;
+  ErrorBound bound;     ///< none is stated of unlike bodies by the pair rule
   double covered = 1;   ///< of a particle with a shape: part of the orientations that the bound is of
   double size_off = 0;  ///< distance of the contact from its law in R_s/(R_s + R_h)
   /// Largest damage number (damage_number.hpp) for which the bound holds.
   double damage_number_max = std::numeric_limits<double>::infinity();
 
   bool covers_size() const { return size_off <= size_share_step * (1 + 1e-9); }
-  /// The same law at a distance in R_s/(R_s + R_h).
+  /// The same law at a distance in R_s/(R_s + R_h). None is measured of a two-body law.
   PairStatement at_distance(double off) const;
 };
 

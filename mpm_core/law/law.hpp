@@ -74,12 +74,10 @@ inline constexpr const char* wall_name = "wall";
 /// Name of types that follow plain Hertz with the deck's moduli and need no law.
 inline constexpr const char* elastic_name = "elastic";
 
-/// A pair that a law may be used for, and what the pair rule (PairMapping) costs there: 0 where it is exact.
+/// A pair that a law may be used for.
 struct LawPair
 {
-  std::string a, b;                        ///< material names; b may be "wall"
-  double reduction_error_force = 0;        ///< relative, against two-body runs
-  double reduction_error_restitution = 0;  ///< relative
+  std::string a, b;  ///< material names; b may be "wall"
 
   bool operator==(const LawPair&) const = default;
 };

@@ -195,10 +195,6 @@ void check_pairs(const Law& law, const std::string& where)
     for (const std::string& name : {pair.a, pair.b})
       if (name != wall_name && !law.bodies.contains(name))
         fail(where, fmt::format("the pair {} names a material that the file does not hold", text));
-    for (const double error : {pair.reduction_error_force, pair.reduction_error_restitution})
-      if (!(error >= 0 && std::isfinite(error)))
-        fail(where, fmt::format("the reduction error of the pair {} is out of range", text),
-             fmt::format("{:.6g}", error), "0 or more");
     if (pair.a != wall_name && pair.b != wall_name)
       check_partners(law.bodies.at(pair.a), law.bodies.at(pair.b), where);
   }
@@ -479,13 +475,8 @@ Law read_open(const h5::Handle& file, const std::string& path)
     if (colon == std::string::npos) fail(path, "unusable pair", shortened(pair), "a:b or a:wall");
     law.pairs.push_back({pair.substr(0, colon), pair.substr(colon + 1)});
   }
-  for (const h5::PairField& f : h5::pair_fields) {
-    const std::vector<double> errors = h5::read_vector(file, f.field, most_pairs, path);
-    if (errors.size() != law.pairs.size())
-      fail(path, fmt::format("'{}' has the wrong length", f.field.name), std::to_string(errors.size()),
-           std::to_string(law.pairs.size()));
-    for (std::size_t k = 0; k < errors.size(); ++k) law.pairs[k].*f.error = errors[k];
-  }
+  for (const h5::Field& f : h5::older_pair_fields)
+    if (h5::has_link(file, f.name)) h5::read_vector(file, f, most_pairs, path);
 
   if (h5::has_link(file, h5::pair_laws)) {
     const h5::Handle own_laws = h5::open_group(file, h5::pair_laws, path);
@@ -574,11 +565,6 @@ void write_law(const Law& law, const std::string& path)
     std::vector<std::string> pairs;
     for (const LawPair& pair : law.pairs) pairs.push_back(pair.a + ":" + pair.b);
     h5::write_texts(file, h5::pairs, pairs, path);
-    for (const h5::PairField& f : h5::pair_fields) {
-      std::vector<double> errors;
-      for (const LawPair& pair : law.pairs) errors.push_back(pair.*f.error);
-      h5::write_vector(file, f.field, errors, path);
-    }
 
     const h5::Handle bodies = h5::create_group(file, h5::bodies, path);
     for (const auto& [name, body] : law.bodies)

@@ -54,17 +54,8 @@ inline constexpr const char* pair_laws = "pair_laws";  ///< group; one subgroup 
 inline constexpr Field radius_ratio_of_runs{"radius_ratio_of_runs", "1",
                                             "partner's radius over the yielding body's"};
 
-// Beside `pairs`, in its order.
-struct PairField
-{
-  Field field;
-  double LawPair::*error;
-};
-inline constexpr PairField pair_fields[] = {
-    {{"pair_reduction_error_force", "1", "relative error of F_max by the pair rule, for each of pairs"},
-     &LawPair::reduction_error_force},
-    {{"pair_reduction_error_restitution", "1", "relative error of e by the pair rule, for each of pairs"},
-     &LawPair::reduction_error_restitution}};
+/// Of files of major version 4: in their checksum, of no other use.
+inline constexpr Field older_pair_fields[] = {{"pair_reduction_error_force", "1", ""}, {"pair_reduction_error_restitution", "1", ""}};
 
 // bodies/<name>
 inline constexpr Field pole_radius{"pole_radius", "m",

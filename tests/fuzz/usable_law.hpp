@@ -16,7 +16,7 @@ inline std::string unusable(const Law& law)
 {
   const double r_eff = 1e-3;  // m
   const auto sane = [](double value) { return value >= 0 && std::isfinite(value); };
-  for (const auto& [a, b, force_error, restitution_error] : law.pairs) {
+  for (const auto& [a, b] : law.pairs) {
     const PairLaw pair = resolve_pair(law, a, b, "test");
     const double end = pair.max_overlap(r_eff), mass = pair.usual_mass(r_eff);
     for (int k = 0; k <= 60; ++k) {

@@ -64,11 +64,10 @@ TEST(ErrorBound, GrowsByWhatAnOmittedAxisCosts)
   EXPECT_DOUBLE_EQ(bound.at(1).force, 0.04 + 0.01 * 1.04);
   EXPECT_DOUBLE_EQ(bound.at(0.2).restitution_at(0.5), 0.015 + std::hypot(0.003, 0.002));
   EXPECT_EQ(bound.text(), "F_max 1 %, e 0.003 and 0.4 %, rising with speed to F_max 5 %, e 0.003 and 3.4 %");
-  EXPECT_EQ(bound.up_to(0.15).omitted_axis.size(), 2u);
-  EXPECT_DOUBLE_EQ(bound.up_to(0.15).at(1).force, 0.01 + 0.01 * 1.01);
   const ErrorBound worst = bound.worst({0.02, 0, 0, {{0.05, 0.5, 0}}});
   EXPECT_DOUBLE_EQ(worst.at(0.05).force, 0.5 + 0.02 * 1.5);
   EXPECT_DOUBLE_EQ(worst.at(0.2).restitution_at(1), 0.03 + std::hypot(0.003, 0.004));
+  EXPECT_FALSE(bound.worst({}).stated());
 }
 
 /// A law of like sizes, and one for a deformable wall: what `mpm table` makes where no --radius-ratio is
@@ -129,31 +128,24 @@ TEST_F(PairStatements, SizesBetweenTwoLawsHaveALargerBound)
   EXPECT_NEAR(nearer.size_off, 0.5 - 1 / 3.0, 1e-12);
 }
 
-TEST_F(PairStatements, ThePairRulesBoundHoldsForAllSizes)
+/// By the pair rule: like bodies of near sizes keep their own bound, no error is stated of unlike ones.
+TEST_F(PairStatements, OfUnlikeBodiesByThePairRuleNoErrorIsStated)
 {
   law_.pair_laws.clear();
-  for (LawPair& pair : law_.pairs)
-    if (pair.a == "powder" && pair.b == "powder")
-      pair.reduction_error_force = pair.reduction_error_restitution = 0.05;
   EXPECT_EQ(at(1, 1).bound.force, 0.0072);
-  const PairStatement s = at(1, 3);
-  EXPECT_EQ(s.kind, LawKind::reduced);
-  EXPECT_TRUE(s.covers_size());
-  EXPECT_DOUBLE_EQ(s.bound.force, std::hypot(0.0072, 0.05));
+  const PairStatement mixed = statement_of(law_, resolve_pair(law_, "powder", "glass", "here"), "powder", "glass");
+  EXPECT_EQ(mixed.kind, LawKind::reduced);
+  EXPECT_EQ(mixed.bound.text(), "not stated");
+  EXPECT_EQ(mixed.at_distance(0.2).bound.text(), "not stated");
 }
 
-/// Up to 0.002 of v^2, which is I of like bodies; a partner of r times the density has m* of 2 r/(1 + r) times theirs.
-TEST_F(PairStatements, ThePairRulesBoundEndsByTheSpeedOfTheVelocityAxis)
+/// Measured: up to 17 % of e at radii 1 : 10 (docs/evidence/pairs.md).
+TEST_F(PairStatements, OfATwoBodyLawAtOtherSizesNoErrorIsStated)
 {
-  law_.pair_laws.clear();
-  law_.bodies.at("powder").certificate.damage_number_max = 1;
-  BodyLaw& heavy = law_.bodies["heavy"] = law_.bodies.at("powder");
-  const auto largest = [&] {
-    return statement_of(law_, resolve_pair(law_, "powder", "powder", "here"), "powder", "heavy").damage_number_max;
-  };
-  EXPECT_NEAR(largest(), 0.002, 1e-15);
-  heavy.material.density *= 3;
-  EXPECT_NEAR(largest(), 0.002 / 1.5, 1e-15);
+  TwoBodyLaw& own = law_.pair_laws["powder:powder"].front();
+  own.law.certificate.origin = "runs", own.radius_ratio = 2;
+  EXPECT_TRUE(at(1, 2).bound.stated());
+  EXPECT_FALSE(at(1, 3).bound.stated());
 }
 
 /// One definition: density and yield stress of the yielding body, its fraction of the approach.

@@ -108,10 +108,7 @@ class Contents
   explicit Contents(const Law& law)
   {
     for (const auto& [name, body] : law.bodies) add(body);
-    for (const LawPair& pair : law.pairs) {
-      word(pair.a), word(pair.b);
-      for (const auto& f : h5::pair_fields) add(pair.*f.error);
-    }
+    for (const LawPair& pair : law.pairs) word(pair.a), word(pair.b);
     for (const auto& [pair, laws] : law.pair_laws)
       for (const TwoBodyLaw& own : laws) word(pair), add(own.radius_ratio), add(own.law);
     for (const auto& [key, note] : law.provenance)
@@ -190,7 +187,6 @@ Law everything()
   grain.certificate.origin = "atlas", grain.certificate.omitted_axis = {{0.01, -0.001, 0.002}, {0.02, 0.003, 0.01}};
   law.bodies["grain"] = grain;
   law.pairs.push_back({"grain", "grain"}), law.pairs.push_back({"grain", "wall"});
-  law.pairs[1].reduction_error_force = 0.012, law.pairs[1].reduction_error_restitution = 0.034;
   return law;
 }
 
@@ -293,7 +289,6 @@ TEST_F(LawFile, DamagesAreNamed)
            {version(5), "major version"},
            {version(5), "found 5, allowed is 4"},
            {version(3), "a law file of version 3, and this program reads 4: make it anew with `mpm table x.toml`"},
-           {without("pair_reduction_error_force"), "pair_reduction_error_force"},
            {without(body + "pole_radius"), "pole_radius"},
            {without(body + "curve/hertz_share"), "hertz_share"},
            {without(body + "curve/onset"), ""},
@@ -326,7 +321,6 @@ TEST_F(LawFile, DamagesAreNamed)
            {set(body + "curve/octaves", 2.5), "octaves"},
            {set(body + "mass_ratio", 0.5), "mass_ratio"},
            {set(body + "certificate/atlas_error_force", NAN), "atlas_error_force"},
-           {set("pair_reduction_error_force", -1), "reduction error"},
            {without(axis + "span"), "span"},
            {without(axis + "share_end"), "share_end"},
            {without_attribute(axis, "kind"), "kind"},

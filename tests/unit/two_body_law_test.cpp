@@ -104,21 +104,6 @@ LawMaterial material(double yield)
 }
 constexpr double never = std::numeric_limits<double>::infinity();
 
-TEST(TwoBodyLaw, RemainingErrorIsThatOfOtherRadii)
-{
-  UnlikePair pair{material(1e8), material(never), 1};
-  const double v = fastest_of_law(pair, 0.002);
-  EXPECT_EQ(estimate_remaining_error(pair, 1, v).restitution, 0);
-  double last = 0;
-  for (const double ratio : {1.5, 3., 10.}) {
-    pair.radius_ratio = ratio;
-    const ReductionError left = estimate_remaining_error(pair, 1, v);
-    EXPECT_GT(left.restitution, last);
-    EXPECT_LT(left.restitution, estimate_reduction_error(pair, v).restitution);
-    last = left.restitution;
-  }
-}
-
 TEST(TwoBodyLaw, NeedsABodyThatYields)
 {
   EXPECT_THROW(build_two_body_law({material(never), material(never), 1}, {}), Error);

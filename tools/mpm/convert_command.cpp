@@ -72,7 +72,6 @@ void write_law_of(deck::Converted& c, const MaterialsFile& file)
   const deck::PairSizes sizes = deck::pair_sizes(c.planned.plan);
   request.radius_ratio = sizes.radius_ratio;
   request.thick_walls = sizes.thick_walls;
-  if (sizes.thick_walls) request.rule_radius_ratio = largest_radius_ratio;
   request.depth = deepest_law, request.damage_number = fastest_law;  // of the atlas: as far as laws go, at no cost
   LawFilePlan plan = plan_law_file(request);
   if (plan.needs_runs()) {

@@ -92,8 +92,6 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
 void print_pair(const Law& law, const LawPair& pair)
 {
   for (const PairLine& line : pair_lines(law, pair)) fmt::print("  pair {}:{}  {}\n", pair.a, pair.b, line.text());
-  if (pair.reduction_error_force > 0 || pair.reduction_error_restitution > 0)
-    fmt::print("  pair {}:{}  the pair rule for other radii: {}\n", pair.a, pair.b, errors_text(pair.reduction_error_force, pair.reduction_error_restitution));
 }
 
 void info(const std::string& path)

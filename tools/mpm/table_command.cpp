@@ -57,7 +57,6 @@ deck::Plan take_from_deck(TableRequest& r, const Options& command)
   const deck::PairSizes sizes = deck::pair_sizes(d.plan);
   if (command.count("--radius-ratio") == 0) r.file.radius_ratio = sizes.radius_ratio;
   if (command.count("--thick-walls") == 0) r.file.thick_walls = sizes.thick_walls;
-  if (sizes.thick_walls) r.file.rule_radius_ratio = largest_radius_ratio;
   return d.plan;
 }
 
@@ -116,7 +115,7 @@ void print_not_composed(const LawFilePlan::Pair& pair, const MadeLawFile& file)
   const auto material = [&](const std::string& name) { return file.law.bodies.at(name).material; };
   const std::string& yielding = yields_first(material(pair.a), material(pair.b)) ? pair.a : pair.b;
   fmt::print("{}: cannot be composed where the partner's radius over that of '{}' is {:.4g} (mpm info says why): {}\n", pair.name(), yielding, fmt::join(missing, ", "),
-      has_own_laws(pair, file.law) ? "the law of the nearest ratio stands in, within the pair rule's error" : "the pair rule stands in");
+      has_own_laws(pair, file.law) ? "the law of the nearest ratio stands in" : "the pair rule stands in");
 }
 
 /// Origin of the pair's laws, if it is worth a line.
@@ -152,9 +151,6 @@ void print_certificate(const std::string& name, const BodyLaw& body)
 
 void print_warnings(const LawFilePlan& plan, const MadeLawFile& file)
 {
-  for (const LawFilePlan::Pair& pair : plan.pairs)
-    if (!has_own_laws(pair, file.law) && pair.is_extrapolated())
-      fmt::print(stderr, "mpm: what the pair rule costs {} is extrapolated: the partner is softer than was measured (docs/guide/pairs.md)\n", pair.name());
   for (const auto& [name, runs] : file.runs)
     if (runs.sampling_error > plan.request.tolerance)
       fmt::print(stderr, "mpm: {}: sampling ended before --tolerance {:g} was reached: error where nothing was sampled {:.2g} (in the law's certificate)\n", name,
@@ -250,8 +246,8 @@ void add_range_options(Options& command, LawFileRequest& file)
       "also laws for deformable walls: of either material of a pair, and of the particle's material (default:\n"
       "yes; --deck: if it has such walls)");
   command.add_flag("--correct-pairs,--own-law", file.own_laws,
-      "correct composed laws by impacts of the two bodies, where the pair rule is worse than\n"
-      "--tolerance. Without the atlas: two-body laws, at equal radii");
+      "correct composed laws whose error is above --tolerance by impacts of the two bodies.\n"
+      "Without the atlas: two-body laws, at equal radii");
 }
 
 void add_shape_options(Options& command, ShapeQuestion& shapes)

@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "base/larger.hpp"
 #include "characterise/build/build_law.hpp"
 #include "atlas/composed_law.hpp"
 #include "characterise/body/law_body.hpp"
@@ -151,12 +150,9 @@ LawFilePlan::Pair plan_pair(const Names& names, const LawFilePlan& plan)
   if (pair.a == pair.b || !a.is_plain_sphere() || !b.is_plain_sphere()) return pair;
   const UnlikePair bodies = unlike_pair(a.material, b.material);
   const ComposedError composed = composed_error(bodies.partner.e_star() / bodies.yielding.e_star());
-  const double by_rule = larger(pair.by_rule.force, pair.by_rule.restitution);
-  const double stated = pair.composed_at.empty() ? by_rule : std::max(composed.force, composed.restitution);
-  pair.worth_own_law = bodies.yielding.yields() && stated > r.tolerance;
-  pair.own_law = r.own_laws && bodies.yielding.yields() && by_rule > r.tolerance;
-  if (pair.own_law && pair.composed_at.empty())
-    pair.stated = own_law_error(a.material, b.material, r.largest_for_rule(), own_law_radius_ratio);
+  pair.worth_own_law = bodies.yielding.yields() &&
+                       (pair.composed_at.empty() || std::max(composed.force, composed.restitution) > r.tolerance);
+  pair.own_law = r.own_laws && pair.worth_own_law;
   return pair;
 }
 

@@ -29,7 +29,7 @@ struct LawFileRequest : SceneSizes
                        ///< must know; 0: a fiftieth of the fastest, or the onset of yield
   double tolerance = 0.01;  ///< relative, of F and e (BuildOptions::tolerance): 1e-4 to 0.5
   bool own_laws =
-      false;  ///< make the own law, by runs, of each pair that the pair rule serves worse than `tolerance`
+      false;  ///< correct by runs each composed law whose error is above `tolerance`; without the atlas, make two-body laws
   ShapeQuestion shapes{};        ///< of bodies of any shape; no velocities: usual_velocity()
   const Atlas* atlas = nullptr;  ///< answers for plain spheres; none: the solver does. Must outlive the plan
 
@@ -52,7 +52,7 @@ struct LawFilePlan
   };
   struct Pair : PlannedPair
   {
-    bool worth_own_law = false;  ///< two plain spheres whose error bound is above the tolerance
+    bool worth_own_law = false;  ///< two plain spheres whose composed law may miss the tolerance, or that have none
     bool own_law = false;  ///< runs of the two bodies will correct what is composed, or make its own law
   };
 

@@ -251,7 +251,7 @@ class Maker
     provenance["git_hash"] = git_hash();
     provenance["created"] = now_utc();
     provenance[depth_note] = fmt::format("{:g}", plan_.request.depth);
-    provenance["reduction_radius_ratio"] = fmt::format("{:g}", plan_.request.radius_ratio);
+    provenance["radius_ratio"] = fmt::format("{:g}", plan_.request.radius_ratio);
     if (plan_.needs_runs()) note_count(farm_.count(), provenance);
   }
 

@@ -11,7 +11,7 @@ namespace granulaw {
 /// of the one sphere the rule says they are (radius lambda R*, force lambda F; at the velocity of equal
 /// energy, so that I means the same). So it goes with the rule's mapping, and has the same records, velocity
 /// axis, checks and certificate, here against two-body runs. Exact for this pair at this radius ratio and
-/// these densities; `estimate_remaining_error` says what other radii cost.
+/// these densities; no error is stated at other radii.
 ///
 /// Homogeneous spheres, elastic or with linear hardening; `pair.yielding` must yield and be the one that
 /// `yields_first`. options.depth is cut where the overlap would pass 0.4 of the smaller radius. Throws as
