@@ -11,7 +11,7 @@
 
 #include "contact/ledger.hpp"
 #include "law/contact_step.hpp"
-#include "law/error_bound.hpp"
+#include "law/pair_statement.hpp"
 #include "liggghts_plugin/books/log_histogram.hpp"
 #include "liggghts_plugin/engine/deck_units.hpp"
 

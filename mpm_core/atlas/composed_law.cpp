@@ -406,6 +406,7 @@ TwoBodyLaw elastic_law(const PairBody& yielding, const PairBody& partner, double
   const ComposedError error = error_of(yielding, partner);
   law.certificate.atlas_error_force = error.force;  // e is 1
   law.certificate.solver_error_force = error.solver;
+  law.state();
   return result;
 }
 
@@ -478,6 +479,7 @@ TwoBodyLaw law_of(const ComposedShape& composed, const LawRange& range)
       finish_curve(law, composed.shape, composed.body, of_pair);
   double& limit = law.certificate.damage_number_max;  // so far v^2 of the axis
   limit = std::min(limit / (composed.speed_ratio * composed.speed_ratio), composed.damage_number_max);
+  law.state();
   return result;
 }
 

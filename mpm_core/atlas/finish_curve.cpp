@@ -85,7 +85,7 @@ void leave_out_axis(BodyLaw& law, const AxisCollision& collide, double tolerance
   std::vector<AxisCost> omitted = costs.up_to(axis->speed_end, tolerance);
   if (omitted.empty()) return;
   if (fastest < axis->speed_end) omitted = costs.up_to(fastest, tolerance);
-  law.certificate.omitted_axis = std::move(omitted);
+  law.bound.omitted_axis = std::move(omitted);
   law.curve = costs.slow();
 }
 

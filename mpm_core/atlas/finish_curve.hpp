@@ -23,9 +23,8 @@ inline constexpr int cheap_replay = 2000;
 /// The body against the rigid wall.
 AxisCollision collision_on_wall(const BodyNumbers& body);
 
-/// Leaves an axis of inertia out if it changes F_max and e by no more than the tolerance at any speed. The certificate
-/// states the change by speed, up to v = `fastest`: it is part of the error bound (law/error_bound.hpp). A rate's
-/// axis stays: it says for which size of the body the law holds.
+/// Leaves an axis of inertia out if it changes F_max and e by no more than the tolerance at any speed, and widens the bound
+/// by the change at each speed, up to v = `fastest` (law/error_bound.hpp). A rate's axis stays: it says for which size of the body the law holds.
 void leave_out_axis(BodyLaw& law, const AxisCollision& collide, double tolerance,
                     double fastest = std::numeric_limits<double>::infinity());
 

@@ -26,6 +26,7 @@ BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const LawRange
     c.damage_number_max = std::numeric_limits<double>::infinity();
     c.atlas_error_force = sphere.fit.error;  // e is 1
     c.solver_error_force = sphere.solver_error;
+    law.state();
     return law;
   }
   const MaterialRatios ratios = MaterialRatios::of(material);
@@ -33,11 +34,12 @@ BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const LawRange
     fail(fmt::format("material '{}'", material.name), "is not in the atlas: " + why);
   const BodyNumbers body = body_numbers(ratios);
   c.interpolation_error = finish_curve(law, atlas.shape(ratios), body, range);
-  leave_out_axis(law, collision_on_wall(body), range.tolerance);
   const NearBounds errors = atlas.bounds_near(ratios.stiffness);
   c.atlas_error_force = errors.force;
   c.atlas_error_restitution = errors.restitution;
   c.solver_error_force = c.solver_error_restitution = errors.solver;
+  law.state();
+  leave_out_axis(law, collision_on_wall(body), range.tolerance);
   return law;
 }
 

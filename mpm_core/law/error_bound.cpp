@@ -2,30 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
+
+#include "law/law.hpp"
 
 namespace granulaw {
 
 namespace {
-
-constexpr double even_share = 0.5;
-
-/// The pair's law among those of its own; null: a body's.
-const TwoBodyLaw* pair_law(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b)
-{
-  if (const std::vector<TwoBodyLaw>* laws = law.find_pair_laws(a, b))
-    for (const TwoBodyLaw& one : *laws)
-      if (&one.law == pair.yielding) return &one;
-  return nullptr;
-}
-
-LawKind kind_of(const TwoBodyLaw* of_pair, const std::string& a, const std::string& b)
-{
-  if (!of_pair) return a == b || a == wall_name || b == wall_name ? LawKind::single : LawKind::reduced;
-  const Certificate& c = of_pair->law.certificate;
-  if (c.origin != composed_origin) return LawKind::two_body;
-  return c.verification_impacts > 0 ? LawKind::corrected : LawKind::composed;
-}
 
 /// Linear between the speeds, from none at standstill; beyond the last that of the last.
 AxisCost cost_at(const std::vector<AxisCost>& costs, double v)
@@ -58,28 +42,45 @@ std::vector<AxisCost> larger_costs(const std::vector<AxisCost>& a, const std::ve
   return costs;
 }
 
+/// Parts that are joined alike by with() and worst().
+ErrorBound joined(const ErrorBound& a, const ErrorBound& b, double (*join)(double, double))
+{
+  ErrorBound both{join(a.force, b.force), join(a.restitution, b.restitution),
+                  join(a.relative_restitution, b.relative_restitution), larger_costs(a.omitted_axis, b.omitted_axis)};
+  for (const auto part : {&ErrorBound::axis_restitution, &ErrorBound::swing_force, &ErrorBound::swing_restitution,
+                          &ErrorBound::size_force, &ErrorBound::size_restitution})
+    both.*part = std::max(a.*part, b.*part);
+  return both;
+}
+
 }  // namespace
 
 ErrorBound ErrorBound::at(double v) const
 {
   const AxisCost cost = cost_at(omitted_axis, v);
-  return {std::abs(cost.force) + (1 + std::abs(cost.force)) * force, restitution, relative_restitution, {},
-          axis_restitution + std::abs(cost.restitution)};
+  ErrorBound bound = *this;
+  bound.force = std::abs(cost.force) + (1 + std::abs(cost.force)) * force;
+  bound.axis_restitution += std::abs(cost.restitution);
+  bound.omitted_axis.clear();
+  return bound;
+}
+
+ErrorBound ErrorBound::at_size(double off) const
+{
+  if (off <= size_share_step * (1 + 1e-9)) return *this;
+  if (!stated() || std::isinf(size_force)) return {};
+  return with({size_force * off, size_restitution * off});
 }
 
 ErrorBound ErrorBound::with(const ErrorBound& other) const
 {
-  return {std::hypot(force, other.force), std::hypot(restitution, other.restitution),
-          std::hypot(relative_restitution, other.relative_restitution),
-          larger_costs(omitted_axis, other.omitted_axis), std::max(axis_restitution, other.axis_restitution)};
+  return joined(*this, other, [](double a, double b) { return std::hypot(a, b); });
 }
 
 ErrorBound ErrorBound::worst(const ErrorBound& other) const
 {
   if (!stated() || !other.stated()) return {};
-  return {std::max(force, other.force), std::max(restitution, other.restitution),
-          std::max(relative_restitution, other.relative_restitution), larger_costs(omitted_axis, other.omitted_axis),
-          std::max(axis_restitution, other.axis_restitution)};
+  return joined(*this, other, [](double a, double b) { return std::max(a, b); });
 }
 
 std::string ErrorBound::text() const
@@ -98,80 +99,30 @@ std::string ErrorBound::text() const
 ErrorBound bound_of(const Certificate& c)
 {
   const bool elastic = std::isinf(c.damage_number_max);
-  const ErrorBound atlas{c.atlas_error_force, c.atlas_error_restitution, 0};
+  const ErrorBound atlas{c.atlas_error_force, c.atlas_error_restitution};
   const bool composed = c.origin == composed_origin && c.verification_impacts == 0;
   const bool checked = (c.origin == "atlas" && !elastic) || composed;  // by impacts: in what they found
-  ErrorBound law = atlas;
+  ErrorBound bound = atlas;
   if (!checked && c.verification_impacts > 0)
-    law = {c.verification_error_force, 0, c.verification_error_restitution};
+    bound = {c.verification_error_force, 0, c.verification_error_restitution};
   else if (!checked)
-    law = atlas.with({c.interpolation_error, 0, c.held_out_error});
-  law = law.with({c.solver_error_force, 0, c.solver_error_restitution});
-  law.omitted_axis = c.omitted_axis;
-  return law;
+    bound = atlas.with({c.interpolation_error, 0, c.held_out_error});
+  bound = bound.with({c.solver_error_force, 0, c.solver_error_restitution});
+  if (elastic) bound.swing_force = 2.7, bound.swing_restitution = 0.35;  // the largest of 21 impacts (docs/evidence/atlas.md)
+  return bound;
+}
+
+void BodyLaw::state()
+{
+  std::vector<AxisCost> costs = std::move(bound.omitted_axis);
+  bound = bound_of(certificate);
+  bound.omitted_axis = std::move(costs);
 }
 
 ErrorBound bound_of(const BodyLaw& body)
 {
-  if (!body.shape) return bound_of(body.certificate);
-  return {body.shape->force().largest, body.shape->restitution().largest, 0, body.certificate.omitted_axis};
-}
-
-ErrorBound size_error(double off)
-{
-  constexpr double force = 0.004 / size_share_step, restitution = 0.002 / size_share_step;
-  if (off <= size_share_step * (1 + 1e-9)) return {};
-  return {force * off, restitution * off, 0};
-}
-
-const char* name_of(LawKind kind)
-{
-  switch (kind) {
-    case LawKind::single:
-      return "single";
-    case LawKind::two_body:
-      return "two-body";
-    case LawKind::composed:
-      return "composed";
-    case LawKind::corrected:
-      return "corrected";
-    case LawKind::reduced:
-      return "reduced";
-  }
-  return "";
-}
-
-PairStatement PairStatement::at_distance(double off) const
-{
-  PairStatement at = *this;
-  at.size_off = off;
-  if (at.covers_size()) return at;
-  const bool measured = kind != LawKind::two_body && bound.stated();
-  at.bound = measured ? bound.with(size_error(off)) : ErrorBound{};
-  if (kind == LawKind::single) at.kind = LawKind::reduced;
-  return at;
-}
-
-PairStatement statement_of(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b)
-{
-  PairStatement s;
-  const BodyLaw& body = *pair.yielding;
-  s.kind = kind_of(pair_law(law, pair, a, b), a, b);
-  if (s.kind != LawKind::reduced) s.bound = bound_of(body);
-  s.damage_number_max = body.certificate.damage_number_max;
-  if (body.shape) s.covered = body.shape->covered();
-  return s;
-}
-
-double distance_in_size(const Law& law, const PairLaw& pair, const std::string& a, const std::string& b,
-                        double radius_a, double radius_b)
-{
-  if (a == wall_name || b == wall_name) return 0;
-  if (a == b && radius_a > radius_b) std::swap(radius_a, radius_b);
-  const bool a_yields = a == b || yields_first(law.bodies.at(a).material, law.bodies.at(b).material);
-  const double ratio = a_yields ? radius_b / radius_a : radius_a / radius_b;
-  const TwoBodyLaw* own = pair_law(law, pair, a, b);
-  return std::abs(1 / (1 + ratio) - (own ? own->size_share() : even_share));
+  if (!body.shape) return body.bound;
+  return {body.shape->force().largest, body.shape->restitution().largest, 0, body.bound.omitted_axis};
 }
 
 }  // namespace granulaw

@@ -9,20 +9,13 @@
 
 #include "base/scales.hpp"
 #include "contact/contact.hpp"
+#include "law/error_bound.hpp"
 #include "law/law_material.hpp"
 #include "law/orientation_check.hpp"
 
 namespace granulaw {
 
-/// Cost, at one speed, of the velocity axis that a law was made without; of F_max and of e, without the axis over with
-/// it, less 1 (signed).
-struct AxisCost
-{
-  double speed = 0;  ///< v of the axis (AxisTable)
-  double force = 0, restitution = 0;
-};
-
-/// Errors a law states about itself, relative (0.01 is 1 %), and the range it holds for.
+/// Where a law's error bound comes from: errors of its parts, relative (0.01 is 1 %), and the range it holds for.
 struct Certificate
 {
   double solver_error_force = 0;        ///< of F, by two resolutions
@@ -38,8 +31,6 @@ struct Certificate
   double axis_cost_force =
       0;  ///< F_max without the velocity axis over F_max with it, less 1, at its end; 0: none
   double axis_cost_restitution = 0;    ///< the same of e (both signed)
-  /// The same by speed, ascending, of an axis that was left out; empty: the law has its axis, or needs none.
-  std::vector<AxisCost> omitted_axis{};
   double atlas_error_force = 0;        ///< of the atlas's values, relative; 0: computed by runs
   double atlas_error_restitution = 0;  ///< the same, absolute in e
   std::string origin = "runs";         ///< "runs": of the solver; "atlas": interpolated in the atlas; or ...
@@ -47,6 +38,16 @@ struct Certificate
 
 /// ... Certificate::origin of a pair's law that was composed of its two bodies' laws.
 inline constexpr const char* composed_origin = "composed";
+
+/// Bound of a law used for what it was made for: the law's error, and that of the solver's cells (solver_error_*).
+/// The law's error is
+/// - from the atlas, that of its checks near this E*/Y (docs/evidence/atlas.md). These are fresh impacts, so it
+///   includes the atlas's own runs, fit, interpolation and table;
+/// - composed of the two bodies' laws, that of two-body impacts that took no part in the rule
+///   (docs/evidence/pairs.md). The solver's error is the larger one of the two bodies' laws;
+/// - by runs, or corrected by impacts, the largest error of its verification, impacts that took no part in the
+///   fit. Without impacts, the errors of fit and table.
+ErrorBound bound_of(const Certificate& certificate);
 
 /// `BodyLaw::body` of a homogeneous sphere.
 inline constexpr const char* sphere_name = "sphere";
@@ -57,6 +58,7 @@ struct BodyLaw
   LawMaterial material;
   Curve curve;
   Certificate certificate;
+  ErrorBound bound{};              ///< of a sphere, where it has a shape
   std::string body = sphere_name;  ///< else the name of a layered or shaped particle: wall and like pair only
   double pole_radius = 0;          ///< m, radius of curvature at the pole, as computed; 0: any (spheres)
   double mass_ratio = 1;           ///< mass over rho 4/3 pi R^3, R the radius of curvature at the pole
@@ -64,10 +66,15 @@ struct BodyLaw
   /// with the radius of curvature at the contact.
   std::optional<ShapeCertificate> shape{};
 
+  /// States the bound by the certificate; the cost of an omitted axis stays.
+  void state();
   bool is_sphere() const { return body == sphere_name; }
   /// kg, of a body whose radius (of curvature at the pole) is `radius`, m.
   double mass(double radius) const { return mass_ratio * material.density * 4.0 / 3.0 * M_PI * radius * radius * radius; }
 };
+
+/// The bound of a body's law. Of a particle with a shape: that of its orientations, each compared with a fresh impact.
+ErrorBound bound_of(const BodyLaw& body);
 
 /// Name of the rigid partner in pair names: "steel:wall".
 inline constexpr const char* wall_name = "wall";

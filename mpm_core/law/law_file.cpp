@@ -116,7 +116,10 @@ void check_body(const BodyLaw& body, const std::string& where)
            c.is_signed ? "-1 or more" : "0 or more");
   if (m.yields() && std::isinf(body.certificate.damage_number_max))
     fail(where, "certificate 'max_inertia' of a body that yields is infinite");
-  check_omitted_axis(body.certificate.omitted_axis, where);
+  for (const h5::BoundField& b : h5::bound_fields)
+    if (const double value = body.bound.*b.value; !(value >= 0) || (std::isinf(value) && &b < &h5::bound_fields[5]))
+      fail(where, fmt::format("'{}' is out of range", b.field.name), fmt::format("{:.6g}", value), "0 or more");
+  check_omitted_axis(body.bound.omitted_axis, where);
   if (std::find(std::begin(h5::origins), std::end(h5::origins), body.certificate.origin) ==
       std::end(h5::origins))
     fail(where, "unknown 'origin' of the certificate", shortened(body.certificate.origin),
@@ -278,40 +281,50 @@ void write_curve(hid_t group, const Curve& curve, const std::string& path)
 }
 
 /// Older files have the cost of an axis that was left out at its end alone.
-void add_omitted_axis(Certificate& c, const Curve& curve)
+void add_omitted_axis(BodyLaw& law)
 {
+  const Certificate& c = law.certificate;
   const bool costs = c.axis_cost_force != 0 || c.axis_cost_restitution != 0;
-  if (!curve.axis() && costs && c.omitted_axis.empty() && c.damage_number_max > 0)
-    c.omitted_axis = {{std::sqrt(c.damage_number_max), c.axis_cost_force, c.axis_cost_restitution}};
+  if (!law.curve.axis() && costs && law.bound.omitted_axis.empty() && c.damage_number_max > 0)
+    law.bound.omitted_axis = {{std::sqrt(c.damage_number_max), c.axis_cost_force, c.axis_cost_restitution}};
 }
 
-Certificate read_certificate(hid_t group, const std::string& where)
+/// Certificate and bound of the law, whose curve is read.
+void read_errors(hid_t group, BodyLaw& law, const std::string& where)
 {
   const h5::Handle k = h5::open_group(group, h5::certificate, where);
-  Certificate certificate;
+  Certificate& certificate = law.certificate;
   for (const h5::CertificateField& f : h5::certificate_fields)
     certificate.*f.value = h5::read_scalar(k, f.field, where);
   if (h5::has_link(k, h5::axis_cost_fields[0].field.name))
     for (const h5::AxisCostField& f : h5::axis_cost_fields) {
       const std::vector<double> values = h5::read_vector(k, f.field, most_axis_costs, where);
-      if (&f == h5::axis_cost_fields) certificate.omitted_axis.resize(values.size());
-      if (values.size() != certificate.omitted_axis.size() || values.empty())
+      std::vector<AxisCost>& costs = law.bound.omitted_axis;
+      if (&f == h5::axis_cost_fields) costs.resize(values.size());
+      if (values.size() != costs.size() || values.empty())
         fail(where, fmt::format("'{}' has the wrong length", f.field.name), std::to_string(values.size()),
-             std::to_string(certificate.omitted_axis.size()));
-      for (std::size_t n = 0; n < values.size(); ++n) certificate.omitted_axis[n].*f.value = values[n];
+             std::to_string(costs.size()));
+      for (std::size_t n = 0; n < values.size(); ++n) costs[n].*f.value = values[n];
     }
   certificate.origin = h5::read_text_attribute(k, h5::origin, where);
-  return certificate;
+  if (h5::has_link(k, h5::bound_fields[0].field.name)) {
+    for (const h5::BoundField& f : h5::bound_fields) law.bound.*f.value = h5::read_scalar(k, f.field, where);
+    return;
+  }
+  law.state();
+  add_omitted_axis(law);
 }
 
-void write_certificate(hid_t group, const Certificate& certificate, const std::string& path)
+void write_errors(hid_t group, const BodyLaw& law, const std::string& path)
 {
   const h5::Handle k = h5::create_group(group, h5::certificate, path);
+  const Certificate& certificate = law.certificate;
+  for (const h5::BoundField& f : h5::bound_fields) h5::write_scalar(k, f.field, law.bound.*f.value, path);
   for (const h5::CertificateField& f : h5::certificate_fields)
     h5::write_scalar(k, f.field, certificate.*f.value, path);
   for (const h5::AxisCostField& f : h5::axis_cost_fields) {
     std::vector<double> values;
-    for (const AxisCost& cost : certificate.omitted_axis) values.push_back(cost.*f.value);
+    for (const AxisCost& cost : law.bound.omitted_axis) values.push_back(cost.*f.value);
     if (!values.empty()) h5::write_vector(k, f.field, values, path);
   }
   h5::write_text_attribute(k, h5::origin, certificate.origin, path);
@@ -335,8 +348,7 @@ BodyLaw read_body(hid_t group, const std::string& name, const std::string& path)
                           h5::read_vector(m, h5::flow_stress, most_nodes, where)};
 
   body.curve = read_curve(group, where);
-  body.certificate = read_certificate(group, where);
-  add_omitted_axis(body.certificate, body.curve);
+  read_errors(group, body, where);
   body.body = h5::read_text_attribute(group, h5::body, where);
   body.pole_radius = h5::read_scalar(group, h5::pole_radius, where);
   body.mass_ratio = h5::read_scalar(group, h5::mass_ratio, where);
@@ -360,7 +372,7 @@ void write_body(hid_t group, const BodyLaw& body, const std::string& path)
   }
 
   write_curve(group, body.curve, path);
-  write_certificate(group, body.certificate, path);
+  write_errors(group, body, path);
   h5::write_text_attribute(group, h5::body, body.body, path);
   h5::write_scalar(group, h5::pole_radius, body.pole_radius, path);
   h5::write_scalar(group, h5::mass_ratio, body.mass_ratio, path);
@@ -372,8 +384,7 @@ TwoBodyLaw read_two_body_law(hid_t group, const LawMaterial& yielding, const std
   TwoBodyLaw own;
   own.law.material = yielding;
   own.law.curve = read_curve(group, where);
-  own.law.certificate = read_certificate(group, where);
-  add_omitted_axis(own.law.certificate, own.law.curve);
+  read_errors(group, own.law, where);
   own.radius_ratio = h5::has_link(group, h5::radius_ratio_of_runs.name)
                          ? h5::read_scalar(group, h5::radius_ratio_of_runs, where)
                          : std::numeric_limits<double>::infinity();
@@ -384,7 +395,7 @@ TwoBodyLaw read_two_body_law(hid_t group, const LawMaterial& yielding, const std
 void write_two_body_law(hid_t group, const TwoBodyLaw& own, const std::string& path)
 {
   write_curve(group, own.law.curve, path);
-  write_certificate(group, own.law.certificate, path);
+  write_errors(group, own.law, path);
   if (std::isfinite(own.radius_ratio))
     h5::write_scalar(group, h5::radius_ratio_of_runs, own.radius_ratio, path);
 }
@@ -435,10 +446,10 @@ h5::Handle open_law(const std::string& path)
   if (H5Aexists(file, h5::format) <= 0 || h5::read_text_attribute(file, h5::format, path) != h5::format_value)
     fail(path, "is an HDF5 file but not a contact law of granulaw");
   const int major = h5::read_int_attribute(file, h5::version_major, path);
-  if (major < h5::major)
-    fail(path, fmt::format("a law file of version {}, and this program reads {}: make it anew with `{}`",
-                           major, h5::major, command_of(file, path)));
-  if (major != h5::major)
+  if (major < h5::oldest_major)
+    fail(path, fmt::format("a law file of version {}, and this program reads {} and {}: make it anew with `{}`",
+                           major, h5::oldest_major, h5::major, command_of(file, path)));
+  if (major > h5::major)
     fail(path, "the law file's major version is not the one this program reads", std::to_string(major),
          std::to_string(h5::major));
   return file;

@@ -19,8 +19,9 @@ inline constexpr const char* format = "format";
 inline constexpr const char* format_value = "granulaw-law";
 inline constexpr const char* version_major = "version_major";
 inline constexpr const char* version_minor = "version_minor";
-inline constexpr int major = 4;                      ///< counts up where an old reader would misread the file
-inline constexpr int minor = 2;                      ///< counts up where something is only added
+inline constexpr int major = 5;                      ///< counts up where an old reader would misread the file
+inline constexpr int oldest_major = 4;               ///< read as well: it has no bounds, which follow from its certificates
+inline constexpr int minor = 1;                      ///< counts up where something is only added
 inline constexpr int first_minor_with_checksum = 1;  ///< files of other writers may say 0 and have none
 
 inline constexpr const char* command = "command";  ///< attribute of provenance: what made the file
@@ -176,7 +177,21 @@ inline constexpr CertificateField certificate_fields[] = {
      &Certificate::atlas_error_force},
     {{"atlas_error_restitution", "1", "absolute in e, of an interpolated law; 0: computed by runs"},
      &Certificate::atlas_error_restitution}};
-/// Lists of Certificate::omitted_axis: all or none, of equal length, ascending in the first.
+/// The final bound, beside the certificate; absent in files of major version 4.
+struct BoundField
+{
+  Field field;
+  double ErrorBound::*value;
+};
+inline constexpr BoundField bound_fields[] = {
+    {{"bound_force", "1", "error bound of F_max, relative: 95 % of impacts lie within"}, &ErrorBound::force},
+    {{"bound_restitution", "1", "the same of e, absolute"}, &ErrorBound::restitution},
+    {{"bound_relative_restitution", "1", "the same of e, relative; the squares of both add"}, &ErrorBound::relative_restitution},
+    {{"bound_swing_force", "1", "further error of F_max of an elastic sphere, over V/c*"}, &ErrorBound::swing_force},
+    {{"bound_swing_restitution", "1", "the same of e"}, &ErrorBound::swing_restitution},
+    {{"bound_size_force", "1", "further error of F_max over a distance of 0.025 and more in R_s/(R_s + R_h); infinity: not stated"}, &ErrorBound::size_force},
+    {{"bound_size_restitution", "1", "the same of e"}, &ErrorBound::size_restitution}};
+/// Lists of ErrorBound::omitted_axis: all or none, of equal length, ascending in the first.
 struct AxisCostField
 {
   Field field;

@@ -41,7 +41,8 @@ std::string PairLine::text() const
   const PairStatement& s = statement;
   std::string line = fmt::format("{} law, {}: error bound {}", name_of(s.kind), radii, s.bound.text());
   if (s.covered < 1) line += fmt::format(" on {:.0f} % of the orientations", 100 * s.covered);
-  if (std::isinf(s.damage_number_max)) return line + fmt::format(", and {:g} V/c* of F in an elastic impact", elastic_swing.force);
+  if (s.bound.swing_force > 0) line += fmt::format(", and {:g} V/c* of F in an elastic impact", s.bound.swing_force);
+  if (std::isinf(s.damage_number_max)) return line;
   return line + (least_damage_number_max < s.damage_number_max
                      ? fmt::format(", to I = {:.3g} to {:.3g}", least_damage_number_max, s.damage_number_max)
                      : fmt::format(", to I = {:.3g}", s.damage_number_max));

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "law/error_bound.hpp"
+#include "law/pair_statement.hpp"
 
 namespace granulaw {
 

@@ -47,10 +47,8 @@ StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity,
   result.axis_speed = pair.law.axis_speed(pair.r_eff, pair.m_eff, velocity);
   result.statement = statement_of(law, pair.law, a, b)
                          .at_distance(distance_in_size(law, pair.law, a, b, pair.radius, pair.radius2));
-  if (std::isinf(result.statement.damage_number_max)) {
-    const double swing = swing_of(law, pair, velocity);
-    result.statement.bound = result.statement.bound.with({elastic_swing.force * swing, elastic_swing.restitution * swing, 0});
-  }
+  ErrorBound& bound = result.statement.bound;
+  if (bound.swing_force > 0) bound = bound.at_swing(swing_of(law, pair, velocity));
   constexpr double rounding = 1e-9;
   result.beyond_bound = result.damage_number > result.statement.damage_number_max * (1 + rounding);
   result.needs_axis = result.beyond_bound && !pair.law.curve->axis();

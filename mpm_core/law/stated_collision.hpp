@@ -1,7 +1,7 @@
 #pragma once
 
 #include "law/chosen_pair.hpp"
-#include "law/error_bound.hpp"
+#include "law/pair_statement.hpp"
 #include "law/replay.hpp"
 
 namespace granulaw {

@@ -414,8 +414,8 @@ def test_law():
     refused(["check", "cut.h5"], "cut.h5", "cut off")
     Path("cut.h5").write_bytes(Path(LAW).read_bytes())
     with h5py.File("cut.h5", "r+") as file:
-        file.attrs.modify("version_major", np.int32(5))
-    refused(["plot", "cut.h5", "-o", "x.png"], "major version", "found 5", "allowed is 4")
+        file.attrs.modify("version_major", np.int32(6))
+    refused(["plot", "cut.h5", "-o", "x.png"], "major version", "found 6", "allowed is 5")
     assert Run("plot", LAW, "-o", "law.png").code == 0 and Path("law.png").stat().st_size > 10000
     for name, words in (("like", ["powder:powder", "--radius", "1e-3", "--radius2", "inf"]), ("wall", ["wall:powder", "--velocity", "3"])):
         done = Run("plot", LAW, "--pair", *words, "-o", f"{name}.png")
@@ -436,6 +436,8 @@ def test_claims():
         without_checksum(file)
         for key, value in stated.items():
             file[f"bodies/powder/certificate/{key}"][()] = value
+        for key, value in (("force", math.hypot(0.037, 0.011)), ("relative_restitution", math.hypot(0.041, 0.023))):
+            file[f"bodies/powder/certificate/bound_{key}"][()] = value
         depth, nodes = file["bodies/powder/curve/end"][()], len(file["bodies/powder/curve/force"])
     info = Run("info", "stated.h5")
     assert info.code == 0, info.err
@@ -462,6 +464,8 @@ def test_claims():
         without_checksum(file)
         for key in ("solver_error_force", "solver_error_restitution", "atlas_error_force", "atlas_error_restitution"):
             file[f"bodies/powder/certificate/{key}"][()] = stated[key]
+        for key, value in (("force", math.hypot(0.053, 0.011)), ("restitution", 0.0067), ("relative_restitution", 0.023)):
+            file[f"bodies/powder/certificate/bound_{key}"][()] = value
     expect("powder:wall", (0.053, 0.011), (lambda e: 0.0067 / e, 0.023), "told.h5")
 
 

@@ -129,6 +129,7 @@ int run(int argc, char** argv)
       c.verification_impacts = number(5);
       c.verification_error_force = 0.012, c.verification_error_restitution = 0.034;
       c.atlas_error_force = 0.056, c.atlas_error_restitution = 0.078;
+      law.bodies.at("powder").state();
     }
     if (word(3) == "pairs") {
       law.pairs.clear();

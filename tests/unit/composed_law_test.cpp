@@ -98,7 +98,7 @@ TEST(ComposedLaw, OfASmallHardPartnerThatHollowsItOut)
   for (const Impact& i : {Impact{1, 0.26861, 0.33846}, Impact{3.07, 0.81002, 0.23176}}) {
     const double radius = 4e-3, mass = s.density * std::pow(radius, 3);
     const Replay replay = replay_collision(law, radius * pair.r_eff(), mass * pair.m_eff(), i.velocity);
-    const ErrorBound stated = bound_of(own.law.certificate);
+    const ErrorBound& stated = own.law.bound;
     EXPECT_NEAR(replay.force_max / i.force_max, 1, stated.force) << i.velocity;
     EXPECT_NEAR(replay.restitution, i.restitution, stated.restitution_at(i.restitution)) << i.velocity;
   }

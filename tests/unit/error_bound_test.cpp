@@ -1,4 +1,4 @@
-#include "law/error_bound.hpp"
+#include "law/pair_statement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -82,11 +82,13 @@ class PairStatements : public ::testing::Test
     wall.law.certificate.origin = composed_origin;
     wall.law.certificate.atlas_error_force = 0.015, wall.law.certificate.atlas_error_restitution = 0.012;
     wall.law.certificate.damage_number_max = 0.001;
+    wall.law.state();
     wall.radius_ratio = std::numeric_limits<double>::infinity();
     law_.pair_laws["powder:powder"] = {wall};
     BodyLaw& powder = law_.bodies.at("powder");
     powder.certificate.origin = "atlas";
     powder.certificate.atlas_error_force = 0.0072, powder.certificate.atlas_error_restitution = 0.0028;
+    powder.state();
   }
   PairStatement at(double radius_a, double radius_b) const
   {
@@ -144,6 +146,7 @@ TEST_F(PairStatements, OfATwoBodyLawAtOtherSizesNoErrorIsStated)
 {
   TwoBodyLaw& own = law_.pair_laws["powder:powder"].front();
   own.law.certificate.origin = "runs", own.radius_ratio = 2;
+  own.law.bound.size_force = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(at(1, 2).bound.stated());
   EXPECT_FALSE(at(1, 3).bound.stated());
 }

@@ -134,7 +134,8 @@ class Contents
     add({table.onset, table.end, table.octaves * 1.0});
     for (const auto& f : h5::curve_columns) add((table.*f.column).value), add((table.*f.column).slope);
     for (const auto& f : h5::certificate_fields) add(b.certificate.*f.value);
-    for (const AxisCost& cost : b.certificate.omitted_axis)
+    for (const auto& f : h5::bound_fields) add(b.bound.*f.value);
+    for (const AxisCost& cost : b.bound.omitted_axis)
       for (const auto& f : h5::axis_cost_fields) add(cost.*f.value);
     if (const AxisTable* axis = b.curve.axis()) {
       add(static_cast<double>(axis->by));
@@ -184,7 +185,9 @@ Law everything()
   grain.body = "core-shell", grain.pole_radius = 2.5e-3, grain.mass_ratio = 0.87;
   double value = 0.001;
   for (const auto& f : h5::certificate_fields) grain.certificate.*f.value = value += 1e-4;
-  grain.certificate.origin = "atlas", grain.certificate.omitted_axis = {{0.01, -0.001, 0.002}, {0.02, 0.003, 0.01}};
+  for (const auto& f : h5::bound_fields) grain.bound.*f.value = value += 1e-4;  // not what the certificate gives
+  grain.bound.size_restitution = std::numeric_limits<double>::infinity();
+  grain.certificate.origin = "atlas", grain.bound.omitted_axis = {{0.01, -0.001, 0.002}, {0.02, 0.003, 0.01}};
   law.bodies["grain"] = grain;
   law.pairs.push_back({"grain", "grain"}), law.pairs.push_back({"grain", "wall"});
   return law;
@@ -259,14 +262,40 @@ TEST_F(LawFile, OlderOrientationsHaveNoBodyBehindTheContact)
   EXPECT_FALSE(read_law(path_).bodies.at("powder").shape->has_body());
 }
 
+/// Makes an open file one of major version 4, without bounds.
+void of_version_4(hid_t file)
+{
+  tests::without_checksum(file);
+  const int major = 4;
+  const hid_t attribute = H5Aopen(file, "version_major", H5P_DEFAULT);
+  H5Awrite(attribute, H5T_NATIVE_INT, &major);
+  H5Aclose(attribute);
+  for (const char* body : {"powder", "glass"})
+    for (const auto& f : h5::bound_fields) without(std::string("bodies/") + body + "/certificate/" + f.field.name)(file);
+}
+
+/// What its certificate says.
+TEST_F(LawFile, AFileOfVersion4HasTheBoundOfItsCertificate)
+{
+  Law law = SyntheticLaw{}.law();
+  Certificate& c = law.bodies.at("powder").certificate;
+  c.origin = "atlas", c.atlas_error_force = 0.003, c.atlas_error_restitution = 0.015, c.solver_error_force = 0.004;
+  law.bodies.at("glass").certificate.damage_number_max = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(after(of_version_4, law), "");
+  const Law read = read_law(path_);
+  EXPECT_DOUBLE_EQ(read.bodies.at("powder").bound.force, 0.005);
+  EXPECT_EQ(read.bodies.at("powder").bound.restitution, 0.015);
+  EXPECT_GT(read.bodies.at("glass").bound.swing_force, 0);
+}
+
 /// An older file states the cost at the end alone; slower impacts take a part of it.
 TEST_F(LawFile, AnOlderFilesOmittedAxisIsInTheBound)
 {
   Law law = SyntheticLaw{}.law();
   Certificate& c = law.bodies.at("powder").certificate;
   c.axis_cost_force = 0.08, c.axis_cost_restitution = -0.06, c.damage_number_max = 0.04;
-  write_law(law, path_);
-  const ErrorBound bound = bound_of(read_law(path_).bodies.at("powder"));
+  EXPECT_EQ(after(of_version_4, law), "");
+  const ErrorBound bound = read_law(path_).bodies.at("powder").bound;
   EXPECT_DOUBLE_EQ(bound.at(0.2).force - bound.force, 0.08 * (1 + bound.force));
   EXPECT_DOUBLE_EQ(bound.at(0.2).restitution_at(0.5) - bound.restitution_at(0.5), 0.03);
   EXPECT_DOUBLE_EQ(bound.at(0.05).force - bound.force, 0.02 * (1 + bound.force));
@@ -286,9 +315,12 @@ TEST_F(LawFile, DamagesAreNamed)
   refused(SyntheticLaw{}.law(),
           {{[](hid_t f) { overwrite(f, "bodies/powder/curve/kept", [](auto& v) { v[30] *= 0.9999; }); }, "its data do not have its checksum"},
            {without_attribute(".", "checksum"), "its checksum is missing"},
-           {version(5), "major version"},
-           {version(5), "found 5, allowed is 4"},
-           {version(3), "a law file of version 3, and this program reads 4: make it anew with `mpm table x.toml`"},
+           {version(6), "major version"},
+           {version(6), "found 6, allowed is 5"},
+           {version(3), "a law file of version 3, and this program reads 4 and 5: make it anew with `mpm table x.toml`"},
+           {set(body + "certificate/bound_force", -0.1), "bound_force"},
+           {set(body + "certificate/bound_force", INFINITY), "bound_force"},
+           {without(body + "certificate/bound_restitution"), "bound_restitution"},
            {without(body + "pole_radius"), "pole_radius"},
            {without(body + "curve/hertz_share"), "hertz_share"},
            {without(body + "curve/onset"), ""},
@@ -334,7 +366,7 @@ TEST_F(LawFile, DamagesAreNamed)
     of_turns.push_back({set(turns + name, value, false), name});
   refused(law_with_orientations(), of_turns);
   Law law = SyntheticLaw{}.law();
-  law.bodies.at("powder").certificate.omitted_axis = {{0.01, -0.001, 0.002}, {0.02, 0.003, 0.01}};
+  law.bodies.at("powder").bound.omitted_axis = {{0.01, -0.001, 0.002}, {0.02, 0.003, 0.01}};
   law.bodies.at("powder").material.flow = {{0, 0.1, 1}, {1e8, 1.3e8, 1.7e8}};
   const std::string omitted = body + "certificate/omitted_axis_";
   refused(law, {{without(omitted + "force"), "omitted_axis_force"},

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/version.hpp"
-#include "law/error_bound.hpp"
+#include "law/pair_statement.hpp"
 #include "law/law_file.hpp"
 #include "scratch_folder.hpp"
 #include "some_materials.hpp"

@@ -59,6 +59,7 @@ struct SyntheticLaw : SyntheticTables
     powder.material = {"powder", 1500.0, 9.1e9, 0.3, 1e8, 0.0};
     powder.curve = curve();
     powder.certificate.damage_number_max = 0.002;
+    powder.state();
     law.bodies["powder"] = powder;
     BodyLaw glass;
     glass.material = {"glass", 2500.0, 70e9, 0.2, std::numeric_limits<double>::infinity(), 0.0};

@@ -120,7 +120,7 @@ Deviation compare(const Atlas& atlas, const Mixture& m, const RunSummary& truth)
   const TwoBodyLaw own = compose_law(atlas, PairBody(atlas, s), PairBody(atlas, h), m.pair.radius_ratio, {});
   const PairLaw law{{&own.law.curve, m.pair.mapping(), radiation(s, 1.0, h, m.pair.radius_ratio)}, &own.law};
   const Replay replay = replay_collision(law, m.pair.r_eff(), m.pair.m_eff(), m.velocity());
-  const ErrorBound stated = bound_of(own.law.certificate);
+  const ErrorBound stated = own.law.bound;
   return {replay.force_max / truth.force_max - 1, replay.restitution - truth.restitution, stated.force,
           stated.restitution_at(replay.restitution)};
 }

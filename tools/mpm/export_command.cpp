@@ -8,7 +8,7 @@
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "command.hpp"
-#include "law/error_bound.hpp"
+#include "law/pair_statement.hpp"
 #include "law/law_file.hpp"
 #include "law/pair_names.hpp"
 #include "option_checks.hpp"

@@ -56,7 +56,7 @@ void print_errors(const BodyLaw& body)
 {
   const Certificate& c = body.certificate;
   fmt::print("  error bound          {} (95 % of {})\n", bound_of(body).text(), body.shape ? "orientations" : "impacts");
-  if (body.shape) fmt::print("  of spheres           {} (the same law, of a sphere)\n", bound_of(c).text());
+  if (body.shape) fmt::print("  of spheres           {} (the same law, of a sphere)\n", body.bound.text());
   fmt::print("  solver error         force {}, e {} (of a computation, by two resolutions; included in the bound)\n", percent(c.solver_error_force),
       percent(c.solver_error_restitution));
   fmt::print("  interpolation error  {}", percent(c.interpolation_error));

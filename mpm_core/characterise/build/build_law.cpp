@@ -310,6 +310,7 @@ void Build::plastic()
   law_.certificate.interpolation_error = finish_curve(law_, shape, numbers_of(body_), options_);
   built_.change_of_restitution = change_of_restitution(shape, law_.curve);
   if (options_.fastest > 0) verify_impacts(sampled.records);
+  law_.state();
   leave_out_axis(law_, collision_on_wall(numbers_of(body_)), options_.tolerance);
   built_.runs = runs_.count() - before;
 }
@@ -334,6 +335,7 @@ void Build::elastic()
   c.interpolation_error = fit.error;
   c.residual_scatter = scatter_about(law_.curve, presses.back());
   c.damage_number_max = std::numeric_limits<double>::infinity();
+  law_.state();
   built_.runs = runs_.count();
 }
 

@@ -91,7 +91,7 @@ class Checking
           impact(characterised->particle, {velocity * scale.velocity()}, {}, options_of(name)).summary;
       const Replay replay =
           replay_on_wall(body, unit.length, characterised->mass * unit.mass(), velocity * unit.velocity());
-      keep(name, bound_of(body.certificate).at(velocity / std::sqrt(body.material.yield_stress / body.material.e_star())),
+      keep(name, body.bound.at(velocity / std::sqrt(body.material.yield_stress / body.material.e_star())),
            velocity * unit.velocity(), run, run.force_max / scale.force(), replay, unit.force());
     }
   }
@@ -112,7 +112,7 @@ class Checking
       const RunSummary run = run_two_bodies(pair, relative, options_of(name));
       const Replay replay = replay_collision(law, pair.r_eff(), pair.m_eff() * yielding.density, relative);
       const double v = law.axis_speed(pair.r_eff(), pair.m_eff() * yielding.density, relative);
-      keep(name, bound_of(own.law.certificate).at(v), relative, run, run.force_max, replay, yielding.e_star());
+      keep(name, own.law.bound.at(v), relative, run, run.force_max, replay, yielding.e_star());
     }
   }
 

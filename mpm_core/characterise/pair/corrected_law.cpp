@@ -376,6 +376,7 @@ CorrectedLaws corrected_laws(const UnlikePair& pair, const PairBody& yielding, c
     const std::vector<Neighbour> neighbours = neighbours_of(impacts, 1 / (1 + ratio));
     TwoBodyLaw& law = made.laws.emplace_back(corrected(composed(ratio), neighbours, options));
     for (const Neighbour& neighbour : neighbours) neighbour.impacts->certify(law.law.certificate);
+    law.law.state();
     leave_out_axis(law, pair.partner, options.tolerance);
   }
   return made;

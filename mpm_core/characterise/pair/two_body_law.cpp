@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "base/error.hpp"
 #include "characterise/pair/two_body_runs.hpp"
@@ -28,6 +29,7 @@ BuiltLaw build_two_body_law(const UnlikePair& pair, const BuildOptions& options)
   own.fastest = options.fastest * speed_ratio;
   BuiltLaw built = build_law(s, yielding_body(pair), own, two_body_runs(pair));
   built.law.certificate.damage_number_max /= speed_ratio * speed_ratio;  // so far v^2 of the axis
+  built.law.bound.size_force = built.law.bound.size_restitution = std::numeric_limits<double>::infinity();
   return built;
 }
 
