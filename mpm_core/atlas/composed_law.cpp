@@ -14,6 +14,7 @@
 #include "atlas/overlap_at_work.hpp"
 #include "atlas/unlike_pair.hpp"
 #include "atlas/tabulate_curve.hpp"
+#include "law/contact_law.hpp"
 #include "contact/pair.hpp"
 #include "law/damage_number.hpp"
 #include "law/radiation.hpp"
@@ -363,16 +364,16 @@ LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& e
 
 /// Those of the yielding body at its own damage number: an impact reaches so much less than by the slow law
 /// as that body's own does. `speed_ratio`: UnlikePair::axis_speed_ratio().
-std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, const Curve& own_slow,
-                                                       const Curve& pair_slow,
+std::vector<LawShape::VelocityEffect> velocity_effects(const LawShape& own, const ContactLaw& own_slow,
+                                                       const ContactLaw& pair_slow,
                                                        const BodyNumbers& body, double speed_ratio)
 {
   std::vector<LawShape::VelocityEffect> effects = own.velocity_effects;
   const double unit = energy_unit(body.mass, body.yield);
   for (LawShape::VelocityEffect& effect : effects) {
-    const double own_overlap = overlap_at_work(own_slow, unit * effect.speed * effect.speed);
+    const double own_overlap = own_slow.overlap_at_work(unit * effect.speed * effect.speed);
     effect.speed *= speed_ratio;
-    const double overlap = overlap_at_work(pair_slow, unit * effect.speed * effect.speed);
+    const double overlap = pair_slow.overlap_at_work(unit * effect.speed * effect.speed);
     effect.log_overlap += std::log(overlap / own_overlap / speed_ratio);
   }
   return effects;
@@ -400,7 +401,7 @@ TwoBodyLaw elastic_law(const PairBody& yielding, const PairBody& partner, double
   BodyLaw& law = result.law;
   law.material = yielding.material();
   law.curve =
-      tabulate_elastic(elastic_correction(yielding, partner, radius_ratio, rule, std::sqrt(depth), 3), depth);
+      tabulate({elastic_correction(yielding, partner, radius_ratio, rule, std::sqrt(depth), 3), depth});
   law.certificate.origin = composed_origin;
   law.certificate.damage_number_max = std::numeric_limits<double>::infinity();
   const ComposedError error = error_of(yielding, partner);
@@ -453,8 +454,7 @@ ComposedShape compose_shape(const Atlas& atlas, const PairBody& yielding, const 
   if (range.fastest > 0) {
     const LawShape own = yielding.own_shape(atlas);
     composed.shape.velocity_effects =
-        velocity_effects(own, tabulate(own, Atlas::depth),
-                         tabulate(composed.shape, end), composed.body, speed_ratio);
+        velocity_effects(own, ContactLaw(own), ContactLaw(composed.shape), composed.body, speed_ratio);
   }
   composed.body.onset = onset;
   return composed;

@@ -5,7 +5,7 @@
 
 #include "atlas/law_range.hpp"
 #include "atlas/body_numbers.hpp"
-#include "atlas/law_shape.hpp"
+#include "law/law_shape.hpp"
 #include "atlas/pair_body.hpp"
 #include "atlas/unlike_pair.hpp"
 #include "law/law.hpp"

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atlas/tabulate_curve.hpp"
+#include "atlas/fit_spline.hpp"
+#include "law/contact_law.hpp"
 
 namespace granulaw {
 
@@ -25,17 +26,17 @@ Departure::Function::Function(const std::vector<Point>& points)
   /// difference.
   constexpr double stiffness = 0.02;
   if (points.empty()) return;
-  std::vector<Spline::Sample> samples;
+  std::vector<SplineSample> samples;
   for (const Point& p : points) {
     samples.push_back({coordinate(p.over_onset), p.value, p.weight});
     end_ = std::max(end_, samples.back().q);
   }
   if (samples.size() == 1) {
-    Spline::Sample half = samples.front();
+    SplineSample half = samples.front();
     half.q *= 0.5, half.value *= 0.25;
     samples.push_back(half);
   }
-  spline_ = Spline::fit(samples, end_, std::clamp(static_cast<int>(end_ / least_interval), fewest, most), stiffness, 2);
+  spline_ = fit_spline(samples, end_, std::clamp(static_cast<int>(end_ / least_interval), fewest, most), stiffness, 2);
 }
 
 double Departure::Function::at(double over_onset) const
@@ -55,13 +56,13 @@ Departure Departure::between(const Curve& own, const LawShape& guide)
 {
   constexpr int places = 96;
   const double onset = guide.onset, end = std::min(own.end(), guide.end);
-  const Curve curve = tabulate(guide, end);
+  const ContactLaw law(guide, end);
   Points points;
   for (int k = 1; k <= places; ++k) {
     const double over_onset = std::pow(end / onset, static_cast<double>(k) / places);
     const double x = std::min(end, onset * over_onset);
-    const Curve::Top a = own.top(x), b = curve.top(x);
-    const double difference[] = {-std::log(a.force / b.force), std::log(own.radius(x) / curve.radius(x)),
+    const Curve::Top a = own.top(x), b = law.top(x);
+    const double difference[] = {-std::log(a.force / b.force), std::log(own.radius(x) / law.radius(x)),
                                  -std::log(a.span / b.span), -std::log(a.kept / b.kept), a.share - b.share};
     for (std::size_t f = 0; f < points.size(); ++f) points[f].push_back({over_onset, difference[f]});
   }

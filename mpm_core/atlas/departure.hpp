@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "atlas/law_shape.hpp"
+#include "law/law_shape.hpp"
 #include "contact/curve.hpp"
 
 namespace granulaw {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "atlas/law_shape.hpp"
+#include "law/law_shape.hpp"
 #include "contact/curve.hpp"
 
 namespace granulaw {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "atlas/law_shape.hpp"
+#include "law/law_shape.hpp"
 #include "atlas/speed_interpolation.hpp"
 #include "contact/curve.hpp"
 

@@ -22,7 +22,7 @@ BodyLaw law_from(const Atlas& atlas, const LawMaterial& material, const LawRange
   if (!material.yields()) {
     const ElasticSphere sphere = atlas.elastic(material.poisson_ratio);
     const double depth = std::min(range.depth, ElasticSphere::depth);
-    law.curve = tabulate_elastic(sphere.fit.correction, depth);
+    law.curve = tabulate({sphere.fit.correction, depth});
     c.damage_number_max = std::numeric_limits<double>::infinity();
     c.atlas_error_force = sphere.fit.error;  // e is 1
     c.solver_error_force = sphere.solver_error;

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "base/error.hpp"
-#include "atlas/law_shape.hpp"
+#include "law/law_shape.hpp"
 
 namespace granulaw {
 

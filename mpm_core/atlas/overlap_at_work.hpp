@@ -1,6 +1,6 @@
 #pragma once
 
-#include "atlas/rising_root.hpp"
+#include "law/rising_root.hpp"
 #include "contact/curve.hpp"
 
 namespace granulaw {

@@ -7,7 +7,6 @@
 
 #include "base/error.hpp"
 #include "atlas/interpolation.hpp"
-#include "atlas/tabulate_curve.hpp"
 
 namespace granulaw {
 
@@ -131,7 +130,7 @@ PairBody PairBody::elastic() const
 }
 
 /// An equivalent sphere from its slow law on a rigid flat, up to the overlap `depth`.
-PairBody::Twin PairBody::tabulated(const Curve& curve, const ElasticCorrection& elastic,
+PairBody::Twin PairBody::tabulated(const ContactLaw& law, const ElasticCorrection& elastic,
                                    double stiffness, double onset, double depth)
 {
   Twin t;
@@ -139,8 +138,8 @@ PairBody::Twin PairBody::tabulated(const Curve& curve, const ElasticCorrection& 
   t.log_end = std::log(depth / onset);
   for (int node = 0; node < overlap_nodes; ++node) {
     const double x = onset * std::exp(log_overlap_of(node, t.log_end));
-    const Reversal top = curve.reversal(x);
-    const double force = 4.0 / 3.0 * top.top(), radius = curve.radius(x);
+    const Reversal top = law.reversal(x);
+    const double force = 4.0 / 3.0 * top.top(), radius = law.radius(x);
     const bool is_elastic = node <= elastic_intervals;
     const UnloadingShape unloading = is_elastic ? elastic.unloading(std::pow(x, 0.25)) : top.shape();
     t.log_contact.push_back(std::log(radius));
@@ -157,7 +156,7 @@ PairBody::Twin PairBody::tabulated(const Curve& curve, const ElasticCorrection& 
 PairBody::Twin PairBody::twin(const Atlas& atlas, double stiffness) const
 {
   const LawShape own = shape(atlas, stiffness);
-  return tabulated(tabulate(own, own.end), own.elastic, stiffness, own.onset, own.end);
+  return tabulated(ContactLaw(own), own.elastic, stiffness, own.onset, own.end);
 }
 
 /// Overlap/R of the elastic sphere at this a/R.

@@ -5,7 +5,7 @@
 
 #include "atlas/departure.hpp"
 #include "atlas/stand_in.hpp"
-#include "contact/curve.hpp"
+#include "law/contact_law.hpp"
 #include "law/law_material.hpp"
 
 namespace granulaw {
@@ -101,7 +101,7 @@ class PairBody
     bool is_clipped;  // nearest to one that the atlas does not know
   };
   void make_twins(const Atlas& atlas);
-  static Twin tabulated(const Curve& curve, const ElasticCorrection& elastic, double stiffness,
+  static Twin tabulated(const ContactLaw& law, const ElasticCorrection& elastic, double stiffness,
                         double onset, double depth);
   Twin twin(const Atlas& atlas, double stiffness) const;
   LawShape shape(const Atlas& atlas, double stiffness) const;

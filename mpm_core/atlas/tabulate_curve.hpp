@@ -1,16 +1,17 @@
 #pragma once
 
-#include "atlas/law_shape.hpp"
+#include "law/contact_law.hpp"
 #include "contact/curve.hpp"
 
 namespace granulaw {
 
-/// The law with this shape up to `x_end`. Force and radius are made to
-/// rise, kept and span never to rise: no closed cycle gains energy.
-Curve tabulate(const LawShape& shape, double x_end);
-
-/// The law of a body that never yields.
-Curve tabulate_elastic(const ElasticCorrection& elastic, double x_end);
+/// The law as a particle code asks it. Force and radius are made to rise, kept and span never to rise: no closed cycle
+/// gains energy.
+Curve tabulate(const ContactLaw& law);
+inline Curve tabulate(const LawShape& shape, double x_end)
+{
+  return tabulate(ContactLaw(shape, x_end));
+}
 
 /// The curve of this table and axis; throws Error where it is no law: the runs are too coarse.
 Curve fitted_curve(CurveTable table, std::optional<AxisTable> axis = {});

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "atlas/law_shape.hpp"
+#include "law/law_shape.hpp"
 #include "contact/curve.hpp"
 
 namespace granulaw {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "characterise/fit/fit_curve.hpp"
-#include "atlas/tabulate_curve.hpp"
+#include "law/contact_law.hpp"
 
 namespace granulaw {
 
@@ -104,20 +104,20 @@ namespace {
 /// Deviation of the atlas's curve from a press.
 MidplaneCheck compare(MidplaneCheck check, const Atlas& atlas, const RunResult& run)
 {
-  const Curve curve = tabulate(atlas.midplane_shape(check.material), MidplaneShapes::depth);
+  const ContactLaw law(atlas.midplane_shape(check.material), MidplaneShapes::depth);
   const ContactRecord record = contact_record_of(run);
   double sum = 0;
   int count = 0;
   for (const auto& [x, force, radius] : record.loading)
     if (x > record.depth / 3) {
-      sum += std::pow(curve.loading(x).force / force - 1, 2);
+      sum += std::pow(law.force(x) / force - 1, 2);
       ++count;
     }
   check.error_force = std::sqrt(sum / count);
   const double x = record.depth;
   check.error_restitution =
-      std::sqrt(curve.kept(x)) - std::sqrt(record.work_ratio);
-  check.error_recovery = (x - curve.reversal(x).residual()) / (x - record.residual) - 1;
+      std::sqrt(law.kept(x)) - std::sqrt(record.work_ratio);
+  check.error_recovery = (x - law.reversal(x).residual()) / (x - record.residual) - 1;
   return check;
 }
 

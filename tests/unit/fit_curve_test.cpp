@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "atlas/spline.hpp"
+#include "atlas/fit_spline.hpp"
 #include "atlas/tabulate_curve.hpp"
 #include "synthetic_law.hpp"
 
@@ -281,7 +281,7 @@ TEST(FitCurve, ElasticFitRecoversItsCoefficients)
   EXPECT_NEAR(fit.c1, 0.87, 1e-9);  // exact least squares
   EXPECT_NEAR(fit.c2, 0.4, 1e-8);
   EXPECT_NEAR(fit.d1, -0.2, 1e-9);
-  const Curve curve = tabulate_elastic(fit, 0.1);
+  const Curve curve = tabulate({fit, 0.1});
   // 3.6e-7: a cubic between nodes h = x/8 apart, of x^1.5: (h/x)^4/384 times 9/16
   for (const double x : {1e-6, 1e-3, 0.03})
     EXPECT_NEAR(curve.loading(x).force / (std::pow(x, 1.5) * (1 + 0.87 * std::sqrt(x) + 0.4 * x)), 1, 3.6e-7);
@@ -343,12 +343,12 @@ TEST(FitCurve, RefusesRunsThatContradictEachOther)
 
 TEST(Spline, StartsWithZeroValueAndSlopeAndReproducesACubic)
 {
-  std::vector<Spline::Sample> samples;
+  std::vector<SplineSample> samples;
   for (int k = 1; k <= 60; ++k) {
     const double q = 1.5 * k / 60;
     samples.push_back({q, 2 * q * q - 0.5 * q * q * q, 1.0});
   }
-  const Spline spline = Spline::fit(samples, 1.5, 8, 1e-9);
+  const Spline spline = fit_spline(samples, 1.5, 8, 1e-9);
   EXPECT_NEAR(spline.value(0.0), 0, 1e-12);
   EXPECT_NEAR(spline.slope(1e-9), 0, 1e-7);
   for (const double q : {0.1, 0.5, 1.0, 1.5}) {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "base/error.hpp"
-#include "atlas/spline.hpp"
+#include "law/spline.hpp"
 
 namespace granulaw::tabulate_curve_test {
 
@@ -39,6 +39,24 @@ TEST(TabulateCurve, HasTheShapesFunctions)
   for (double x = 1.4 * onset; x < end; x *= 1.07) {
     EXPECT_NEAR(std::sqrt(curve.kept(x)), std::exp(-0.5 * dissipation.value(shape.q(x))), 1e-6) << x;
     EXPECT_NEAR(curve.top(x).span, std::exp(-residual.value(shape.q(x))), 1e-5) << x;
+  }
+}
+
+/// Asked without a table, to its error; before the onset, within and beyond the end.
+TEST(TabulateCurve, IsTheLawThatCanBeAsked)
+{
+  const LawShape shape = shape_with([](double u) { return 2 * u * u; }, [](double u) { return 2.2 * u * u; });
+  const ContactLaw law(shape, 0.8 * end);
+  const Curve curve = tabulate(law);
+  for (double x = 0.01 * onset; x < 2 * end; x *= 1.07) {
+    EXPECT_NEAR(law.force(x) / curve.force(x), 1, 4e-6) << x;
+    if (x < law.end()) {
+      EXPECT_NEAR(law.radius(x) / curve.radius(x), 1, 1e-5) << x;
+    }
+    EXPECT_NEAR(law.work(x) / curve.work(x), 1, 4e-6) << x;
+    EXPECT_NEAR(law.kept(x), curve.kept(x), 1e-5) << x;
+    EXPECT_NEAR(law.reversal(x).residual() / x, curve.reversal(x).residual() / x, x > onset ? 1e-4 : 2e-3) << x;
+    EXPECT_NEAR(law.overlap_at_work(law.work(x)) / x, 1, 1e-9) << x;
   }
 }
 
@@ -83,7 +101,7 @@ TEST(TabulateCurve, MakesALoadingForceRise)
 
 TEST(TabulateCurve, RefusesATableThatIsNoLaw)
 {
-  CurveTable table = tabulate_elastic({}, 0.1).table();
+  CurveTable table = tabulate({ElasticCorrection{}, 0.1}).table();
   table.force.value[7] = 0;
   EXPECT_THROW(fitted_curve(table), Error);
 }

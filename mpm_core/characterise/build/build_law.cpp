@@ -330,7 +330,7 @@ void Build::elastic()
   for (const RunOutcome& outcome : runs_.make_needed(jobs, 1.0, "the elastic press"))
     presses.push_back(contact_record_of(outcome.result));
   const ElasticFit fit = fit_elastic(presses);
-  law_.curve = tabulate_elastic(fit.correction, options_.depth);
+  law_.curve = tabulate({fit.correction, options_.depth});
   Certificate& c = law_.certificate;
   c.interpolation_error = fit.error;
   c.residual_scatter = scatter_about(law_.curve, presses.back());

@@ -9,7 +9,7 @@
 #include "base/larger.hpp"
 #include "atlas/departure.hpp"
 #include "atlas/speed_interpolation.hpp"
-#include "atlas/spline.hpp"
+#include "atlas/fit_spline.hpp"
 #include "linear/linear.hpp"
 
 namespace granulaw {
@@ -73,7 +73,7 @@ double elastic_hertz_share(const ElasticCorrection& elastic, double x)
   return elastic.unloading(std::pow(x, 0.25)).hertz_share;
 }
 
-using Samples = std::vector<Spline::Sample>;
+using Samples = std::vector<SplineSample>;
 
 /// Adds one function of a law that is known below the first run.
 void add_known(Samples& samples, const LawShape* known, std::vector<double> LawShape::*function, double q_first,
@@ -101,7 +101,7 @@ Spline reversal_spline(std::span<const ContactRecord> presses, double onset, dou
   }
   add_known(samples, known, function, q_first, q_end, 1.0);
   const int intervals = std::max(4, static_cast<int>(samples.size()) - 2);
-  return Spline::fit(samples, q_end, std::min(intervals, 24), smoothing);
+  return fit_spline(samples, q_end, std::min(intervals, 24), smoothing);
 }
 
 /// ln(F/F_press) of an impact at shares of its overlap: a least-squares polynomial in sqrt(share), which
@@ -199,7 +199,7 @@ ElasticCorrection measured_elastic(const ContactRecord& press, std::span<const C
   // a layer of 0.01 R or more is as thick as several knots.
   constexpr int intervals = 24;
   const double end = std::pow(press.depth, 0.25);
-  elastic.measured = std::make_shared<const Spline>(Spline::fit(samples, end, intervals, 0.02));
+  elastic.measured = std::make_shared<const Spline>(fit_spline(samples, end, intervals, 0.02));
   return elastic;
 }
 
@@ -287,7 +287,7 @@ void ShapeFit::add_departure(const std::array<Samples, 5>& samples)
   Departure::Points points;
   for (std::size_t f = 0; f < points.size(); ++f) {
     const Spline of_guide = shape.by_q(LawShape::functions[f]);
-    for (const Spline::Sample& s : samples[f])
+    for (const SplineSample& s : samples[f])
       points[f].push_back({std::exp(4 * s.q), s.value - of_guide.value(s.q), s.weight});
   }
   Departure(points).add_to(shape);
@@ -316,8 +316,8 @@ void ShapeFit::fit_loading()
     add_known(radius, known, &LawShape::widening, q_first, q_end(), weight);
   }
   const int intervals = std::clamp(static_cast<int>(std::lround(q_end() / 0.15)), 6, 40);
-  shape.force_reduction = Spline::fit(force, q_end(), intervals, 0.02).values(LawShape::nodes);
-  shape.widening = Spline::fit(radius, q_end(), intervals, 0.05).values(LawShape::nodes);
+  shape.force_reduction = fit_spline(force, q_end(), intervals, 0.02).values(LawShape::nodes);
+  shape.widening = fit_spline(radius, q_end(), intervals, 0.05).values(LawShape::nodes);
 }
 
 /// The recovered work follows the force at the reversal, which swings with the contact edge about the law:

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "atlas/law_shape.hpp"
+#include "law/law_shape.hpp"
 #include "characterise/run/sampling_plan.hpp"
 
 namespace granulaw {

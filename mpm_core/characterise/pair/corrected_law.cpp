@@ -8,12 +8,12 @@
 
 #include "atlas/departure.hpp"
 #include "atlas/overlap_at_work.hpp"
-#include "atlas/tabulate_curve.hpp"
 #include "base/larger.hpp"
 #include "characterise/pair/two_body_runs.hpp"
 #include "characterise/run/build_runs.hpp"
 #include "characterise/run/refinement.hpp"
 #include "characterise/run/resolution_choice.hpp"
+#include "law/contact_law.hpp"
 #include "law/radiation.hpp"
 #include "law/replay.hpp"
 
@@ -103,7 +103,7 @@ class PairImpacts
   UnlikePair pair_;
   ComposedShape composed_;
   BodyLaw guide_;
-  Curve slow_;  // of the composed law, as the guide's without its axis
+  ContactLaw slow_;  // of the composed law
   CharacterisedBody body_;
   BuildOptions options_;
   PairFarm farm_;
@@ -120,7 +120,7 @@ PairImpacts::PairImpacts(const UnlikePair& pair, const ComposedShape& composed, 
     : pair_(pair),
       composed_(composed),
       guide_(law_of(composed, options).law),
-      slow_(tabulate(composed.shape, composed.end)),
+      slow_(composed.shape, composed.end),
       body_(yielding_body(pair)),
       options_(options),
       farm_(farm, pair),
@@ -137,7 +137,7 @@ double PairImpacts::deepest() const
   const double fastest =
       std::min(ringing, options_.fastest > 0 ? options_.fastest * composed_.speed_ratio : slow_speed);
   return std::min({onset() * std::pow(composed_.end / onset(), near_end), deepest_of_two_bodies(pair_),
-                   overlap_at_work(slow_, energy() * fastest * fastest)});
+                   slow_.overlap_at_work(energy() * fastest * fastest)});
 }
 
 RunJob PairImpacts::job(double overlap, int cells) const

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/larger.hpp"
-#include "atlas/law_shape.hpp"
+#include "law/law_shape.hpp"
 #include "atlas/speed_interpolation.hpp"
 
 namespace granulaw {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "atlas/law_shape.hpp"
+#include "law/law_shape.hpp"
 #include "characterise/run/sampling_plan.hpp"
 #include "contact/axis.hpp"
 

@@ -9,7 +9,7 @@
 #include "atlas/law_range.hpp"
 #include "characterise/body/characterised_body.hpp"
 #include "characterise/record/contact_record.hpp"
-#include "atlas/law_shape.hpp"
+#include "law/law_shape.hpp"
 #include "farm/run_queue.hpp"
 
 namespace granulaw {

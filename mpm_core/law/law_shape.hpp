@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "atlas/spline.hpp"
+#include "law/spline.hpp"
 #include "contact/unloading.hpp"
 
 namespace granulaw {

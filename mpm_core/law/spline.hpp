@@ -1,6 +1,7 @@
 #pragma once
 
-#include <span>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "contact/cubic.hpp"
@@ -12,20 +13,12 @@ namespace granulaw {
 class Spline
 {
  public:
-  struct Sample
-  {
-    double q, value, weight;
-  };
-
   /// 0 everywhere.
   Spline() = default;
   /// Through values, five or more, at even places from 0 to `end`; the first is 0.
   static Spline through(std::vector<double> values, double end);
-  /// Weighted least squares through 2 samples or more. The penalty on the differences of this order of the
-  /// B-spline coefficients is `stiffness` times the mean weight of the samples: it bridges intervals without
-  /// samples and does not follow grid noise.
-  static Spline fit(std::span<const Sample> samples, double end, int intervals, double stiffness,
-                    int order = 3);
+  /// Values and slopes at even places from 0 to `end`; the first are 0.
+  Spline(HermiteColumn nodes, double end) : nodes_(std::move(nodes)), end_(end) {}
 
   double value(double q) const;
   double slope(double q) const;
@@ -33,7 +26,6 @@ class Spline
   std::vector<double> values(std::size_t places) const;
 
  private:
-  Spline(HermiteColumn nodes, double end) : nodes_(std::move(nodes)), end_(end) {}
   double spacing() const { return end_ / static_cast<double>(nodes_.size() - 1); }
   struct Place
   {

@@ -1,10 +1,10 @@
-#include "atlas/law_shape.hpp"
+#include "law/law_shape.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "atlas/rising_root.hpp"
-#include "atlas/tabulate_curve.hpp"
+#include "law/rising_root.hpp"
+#include "law/contact_law.hpp"
 
 namespace granulaw {
 
@@ -71,7 +71,7 @@ LawShape LawShape::at_range(double other_onset, double other_end) const
 
 LawShape LawShape::as_skin_of(const ElasticCorrection& body, double known) const
 {
-  const Curve sphere = tabulate(*this, known);
+  const ContactLaw sphere(*this, known);
   const double at_onset = std::pow(onset, 0.25);
   const double difference = body.measured  // of c1
                                 ? (elastic.force_ratio(at_onset) - body.force_ratio(at_onset)) / std::sqrt(onset)
