@@ -41,9 +41,6 @@ class TestDamping(Deck):
             found = self.run_each((self.deck(words, ELASTIC_SPEED, model) for words in ratios), "SPEED")
             assert [after / ELASTIC_SPEED for after, in found] == approx([damped_restitution(z) for z in ratios.values()], abs=0.003), model
 
-    def test_off_is_the_pure_law(self):
-        assert self.e(self.deck("elasticDamping off", ELASTIC_SPEED), ELASTIC_SPEED) == approx(1.0, abs=1e-4)
-
     def test_default_stays_within_0_0035(self):
         """The default's e differs from the pure law's by at most 1 - exp(-0.001 pi) = 0.0031 (and rounding up)."""
         speeds = (0.03, 0.07, 0.1, 1.0)

@@ -61,13 +61,3 @@ class TestOptions(Deck):
         template = "fix pt all particletemplate/sphere 15485863 atom_type 1 density constant 15000 radius constant 0.001\nrun 120"
         text = self.run_deck(self.deck().replace("run 120", template))
         assert text.count("have density 1500 to 15000 kg/m^3") == 1
-
-    def test_own_statistics_fix(self):
-        """`fix ID all granulaw/stats` by the user takes the place of the automatic one."""
-        deck = self.deck().replace("run 120", "fix s all granulaw/stats file s.json\nvariable d equal f_s\nrun 120")
-        self.run_deck(deck + 'print "D ${d}"\n')
-        assert (self.folder / "s.json").exists()
-
-    def test_check_timestep(self):
-        deck = self.deck().replace("run 120", "fix c all check/timestep/gran 10 0.5 0.5\nrun 120")
-        assert self.speed(deck) > 0.1

@@ -24,16 +24,6 @@ class TestParallel(Deck):
     def prepare(self):
         gas.data_file(self.folder / "gas.data")
 
-    def test_error_of_one_rank_alone_ends_the_run(self):
-        """The others wait for it in a sum; without its message they would do so for ever."""
-        (self.folder / "fault.cpp").write_text(LONE_FAULT)
-        run("c++", "-shared", "-fPIC", self.folder / "fault.cpp", "-o", self.folder / "fault.so")
-        start = self.folder / "start"
-        start.write_text(f'#!/bin/sh\n[ "$OMPI_COMM_WORLD_RANK" = 1 ] && export LD_PRELOAD={self.folder}/fault.so\nexec {LAUNCHER} "$@"\n')
-        start.chmod(0o755)
-        deck = gas.start() + gas.model(f"law {self.law} materials powder") + gas.MOVE + "run 1\n"
-        assert "ERROR on proc 1: std::bad_alloc" in self.run_deck(deck, ranks=2, launcher=start, expect_failure=True)
-
     def test_a_contact_whose_type_loses_its_law_on_one_rank(self):
         """The sums over pairs of types, two to a rank, have the same terms on both: the statistics are answered."""
         deck = head(types=2, half=0.02, extra="", skin=1e-3) + properties([POWDER, POWDER], 0.3)
@@ -50,3 +40,16 @@ class TestParallel(Deck):
             text = self.run_deck(deck, ranks=2, expect_failure=True)
             assert text.count("ERROR") == 1, text[-2000:]
             assert sentence in text
+
+
+class TestAlone(Deck):
+    def test_error_of_one_rank_alone_ends_the_run(self):
+        """The others wait for it in a sum; without its message they would do so for ever. It comes after 20 s (run/stop.cpp)."""
+        gas.data_file(self.folder / "gas.data")
+        (self.folder / "fault.cpp").write_text(LONE_FAULT)
+        run("c++", "-shared", "-fPIC", self.folder / "fault.cpp", "-o", self.folder / "fault.so")
+        start = self.folder / "start"
+        start.write_text(f'#!/bin/sh\n[ "$OMPI_COMM_WORLD_RANK" = 1 ] && export LD_PRELOAD={self.folder}/fault.so\nexec {LAUNCHER} "$@"\n')
+        start.chmod(0o755)
+        deck = gas.start() + gas.model(f"law {self.law} materials powder") + gas.MOVE + "run 1\n"
+        assert "ERROR on proc 1: std::bad_alloc" in self.run_deck(deck, ranks=2, launcher=start, expect_failure=True)
