@@ -100,7 +100,7 @@ double SphereLaws::contact_time(double x, double residual, double restitution) c
 const Curve& SphereLaws::midplane() const
 {
   if (!midplane_) {
-    if (atlas_->midplane().empty()) fail("atlas", "holds no midplane curves: make it anew with mpm atlas");
+    if (atlas_->midplane().empty()) fail("atlas", "holds no midplane curves: make it anew (tools/atlas)");
     midplane_ = tabulate(atlas_->midplane().shape(material_, shape_), MidplaneShapes::depth);
   }
   return *midplane_;

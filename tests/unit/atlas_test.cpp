@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "characterise/atlas_build.hpp"
+#include "atlas_build.hpp"
 #include "atlas/interpolation.hpp"
 #include "atlas/law_from_atlas.hpp"
 #include "synthetic_law.hpp"

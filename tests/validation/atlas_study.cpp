@@ -22,7 +22,7 @@
 #include "base/error.hpp"
 #include "base/larger.hpp"
 #include "base/scales.hpp"
-#include "characterise/atlas_build.hpp"
+#include "atlas_build.hpp"
 #include "characterise/atlas_file.hpp"
 #include "characterise/run/sampling_plan.hpp"
 #include "farm/farm.hpp"

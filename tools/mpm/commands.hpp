@@ -14,7 +14,6 @@
   ENTRY("Laws", export)            \
   ENTRY("Laws", check)             \
   ENTRY("Laws", shape)             \
-  ENTRY("Laws", atlas)             \
   ENTRY("LIGGGHTS decks", convert) \
   ENTRY("LIGGGHTS decks", plan)    \
   ENTRY("LIGGGHTS decks", stretch) \

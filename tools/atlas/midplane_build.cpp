@@ -1,4 +1,4 @@
-#include "characterise/midplane_build.hpp"
+#include "midplane_build.hpp"
 
 #include "characterise/run/sampling_plan.hpp"
 

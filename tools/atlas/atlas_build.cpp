@@ -1,4 +1,4 @@
-#include "characterise/atlas_build.hpp"
+#include "atlas_build.hpp"
 
 #include "characterise/run/sampling_plan.hpp"
 

@@ -1,9 +1,9 @@
-#include "characterise/make_atlas.hpp"
+#include "make_atlas.hpp"
 
 #include <string>
 
-#include "characterise/atlas_build.hpp"
-#include "characterise/midplane_build.hpp"
+#include "atlas_build.hpp"
+#include "midplane_build.hpp"
 #include "characterise/run/sampling_plan.hpp"
 
 namespace granulaw {
