@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/run/estimates.hpp"
 #include "solver/solver_id.hpp"
 
 namespace granulaw {
@@ -77,14 +78,13 @@ double top_speed_ramp(double depth, double speed_squared)
 
 double expected_depth(double velocity, const CharacterisedBody& s)
 {
-  const double hertz = std::pow(15.0 / 16.0 * s.mass * velocity * velocity, 0.4);
-  return s.yields() ? std::max(hertz, velocity * std::sqrt(s.mass / (5.6 * M_PI * s.yield))) : hertz;
+  const double hertz = hertz_overlap(s.mass, 1.0, 1.0, velocity);
+  return s.yields() ? std::max(hertz, plastic_overlap(s.mass, 1.0, s.yield, velocity)) : hertz;
 }
 
 double velocity_to(double x, const CharacterisedBody& s)
 {
-  return std::min(std::sqrt(std::pow(x, 2.5) * 16.0 / (15.0 * s.mass)),
-                  x / std::sqrt(s.mass / (5.6 * M_PI * s.yield)));
+  return std::min(std::sqrt(std::pow(x, 2.5) * 16.0 / (15.0 * s.mass)), x / plastic_overlap(s.mass, 1.0, s.yield, 1.0));
 }
 
 double loading_ramp(const CharacterisedBody& s, double depth, double tolerance)
