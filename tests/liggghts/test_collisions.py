@@ -224,7 +224,7 @@ class TestComputed(Collisions):
         file = self.folder / "materials.toml"
         file.write_text("".join(material(m.name, m.density, m.youngs_modulus, m.poisson_ratio, m.yield_stress if m is POWDER else None) for m in (POWDER, GLASS)))
         pairs = [word for pair in ("powder:glass", "powder:powder", "glass:glass", "powder:wall") for word in ("--pair", pair)]
-        done = mpm("table", file, *pairs, "--own-law", "-o", self.law, timeout=7000)
+        done = mpm("table", file, *pairs, "--own-law", "--tolerance", "0.006", "-o", self.law, timeout=7000)  # composing costs 0.0065 of F
         assert "powder:glass: corrected by " in done.stdout + done.stderr
         self.own_law()
         self.compare([(bodies, v, law["e"], law["contact_time_s"], 50, LIMITS[50]) for bodies in (WALL, PAIR, UNLIKE[0]) for v in (0.05, 1.0, 5.0) for law in (
