@@ -3,7 +3,7 @@
 #include "solver/material/stress_update.hpp"
 
 // Deformation and stress of axisymmetric points by their principal axes, for loops over material points that
-// vectorise. As with the flow laws, every function must be always_inline (flow/parts.hpp).
+// vectorise. As with the flow laws, every function must be always_inline (material/parameter.hpp).
 
 namespace granulaw::kernel {
 

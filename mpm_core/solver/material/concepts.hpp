@@ -41,7 +41,7 @@ concept LawOfLists = NamedLaw<Law> &&
 };
 
 /// Every key is a number: `from` reads them in the order of `parameters`.
-///     stretch(values, by)
+///     scale_strains(values, by)
 /// changes them so that every plastic strain is `by` times as large, at the same stresses.
 template <class Law>
 concept LawOfNumbers = NamedLaw<Law> &&

@@ -9,7 +9,7 @@
 
 // The flow that brings points back to their flow stress, one scalar equation for each: the part of the stress
 // update that depends on hardening and rate, not on the yield surface or dimension. As with the flow laws,
-// every function must be always_inline (flow/parts.hpp).
+// every function must be always_inline (material/parameter.hpp).
 
 namespace granulaw::flow {
 

@@ -5,7 +5,7 @@
 #include "solver/material/parameter.hpp"
 
 // Functions of one number that the kernels of all dimensions share, for loops over material points that
-// vectorise. As with the flow laws, every function must be always_inline (flow/parts.hpp).
+// vectorise. As with the flow laws, every function must be always_inline (material/parameter.hpp).
 
 namespace granulaw::kernel {
 

@@ -4,7 +4,7 @@
 
 // Symmetric tensors of three dimensions, and deformation and stress of points without principal axes, for
 // loops over material points that vectorise. As with the flow laws, every function must be always_inline
-// (flow/parts.hpp).
+// (material/parameter.hpp).
 
 namespace granulaw::kernel {
 

@@ -8,7 +8,7 @@
 // logarithmic elastic strain. Trial b = F Cp^-1 F^T, its logarithmic strain, the flow that the yield function
 // finds for it, first Piola-Kirchhoff stress P = tau F^-T. Yield is on the Cauchy stress tau/J. All tensors
 // are kept as difference from the identity. As with the flow laws, every function must be static or
-// always_inline (flow/parts.hpp).
+// always_inline (material/parameter.hpp).
 //
 // A dimension is a Tensor: axisymmetric_tensor.hpp, spatial_tensor.hpp.
 

@@ -138,7 +138,7 @@ std::optional<Eigen::Matrix3d> SpatialSetup::exact_inertia() const
   return density * rotation_ * solid_->mass_properties().inertia * rotation_.transpose() / std::pow(scale_.length, 5);
 }
 
-/// 8, as a certificate over orientations (characterise/shape_certificate.cpp).
+/// 8, as a certificate over orientations (characterise/shape/shape_certificate.cpp).
 int SpatialSetup::cells(const RunOptions& options, double) const
 {
   return cells_of(options, 8, 100, " in three dimensions");

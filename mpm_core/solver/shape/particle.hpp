@@ -49,7 +49,7 @@ struct Particle
   double height_of_largest_radius() const;  ///< m, above the contact pole
 
   /// Radius of curvature at the contact pole, m. Sphere: radius. Profile: fitted within 0.1 radius of the
-  /// pole (profile.hpp); infinity for a flat tip.
+  /// pole (revolved.hpp); infinity for a flat tip.
   double pole_curvature_radius() const;
 
   /// Distance to the surface, m, positive inside. Of a profile: to the polyline, exactly.
