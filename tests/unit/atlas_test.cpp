@@ -1,4 +1,3 @@
-#include "characterise/atlas_file.hpp"
 
 #include "characterise/run/sampling_plan.hpp"
 
@@ -12,15 +11,11 @@
 #include "atlas/interpolation.hpp"
 #include "atlas/law_from_atlas.hpp"
 #include "synthetic_law.hpp"
+#include "own_atlas.hpp"
 
 namespace granulaw::atlas_test {
 
-/// The atlas that comes with the program.
-const Atlas& shipped()
-{
-  static const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
-  return atlas;
-}
+using tests::atlas;
 
 LawMaterial material(const MaterialRatios& m)
 {
@@ -51,9 +46,9 @@ TEST(Interpolation, WeightsReproduceACubicAndEndAtTheEnds)
 
 TEST(Atlas, GivesItsOwnMaterialsBack)
 {
-  for (const Atlas::Node& node : shipped().nodes()) {
-    const LawShape shape = shipped().shape(node.material);
-    const bool unloads = node.material.poisson_ratio == shipped().grid().main_poisson_ratio ||
+  for (const Atlas::Node& node : atlas().nodes()) {
+    const LawShape shape = atlas().shape(node.material);
+    const bool unloads = node.material.poisson_ratio == atlas().grid().main_poisson_ratio ||
                          node.material.stiffness <= AtlasGrid::block_unloading_end;
     for (int k = 0; k < LawShape::nodes; ++k) {
       // rounding of some ten weighted terms
@@ -68,11 +63,11 @@ TEST(Atlas, GivesItsOwnMaterialsBack)
 TEST(Atlas, RunsOnlyMaterialsThatTheOneItStartsFromLacks)
 {
   const RunSource source;
-  AtlasGrid grid = shipped().grid();
+  AtlasGrid grid = atlas().grid();
   const std::size_t elastic = 2 * grid.poisson_ratios().size();
-  const KnownAtlas all{&shipped()}, presses{&shipped(), true};
+  const KnownAtlas all{&atlas()}, presses{&atlas(), true};
   EXPECT_EQ(atlas_jobs(grid, source, all).size(), elastic);
-  const std::size_t impacts = shipped().nodes().size() * std::size(impact_speeds);
+  const std::size_t impacts = atlas().nodes().size() * std::size(impact_speeds);
   EXPECT_EQ(atlas_jobs(grid, source, presses).size(), elastic + impacts);
   grid.stiffnesses.insert(std::find(grid.stiffnesses.begin(), grid.stiffnesses.end(), 400), 300);
   std::size_t lacking = 0;
@@ -91,12 +86,12 @@ TEST(Atlas, RunsOnlyMaterialsThatTheOneItStartsFromLacks)
 TEST(Atlas, ALawLosesWhatItsImpactsLostWhateverTheirTime)
 {
   int examined = 0;
-  for (const Atlas::Node& node : shipped().nodes()) {
+  for (const Atlas::Node& node : atlas().nodes()) {
     const MaterialRatios& m = node.material;
     if (m.stiffness > 60 || m.poisson_ratio < 0.4 || m.hardening > 0.01) continue;
     LawRange options;
     options.depth = Atlas::depth;
-    const Curve& law = law_from(shipped(), material(m), options).curve;
+    const Curve& law = law_from(atlas(), material(m), options).curve;
     for (const LawShape::VelocityEffect& impact : node.shape.velocity_effects) {
       if (impact.speed < 0.14 || impact.speed > 0.23) continue;
       const double x = std::exp(impact.log_overlap) * impact.speed;
@@ -119,7 +114,7 @@ TEST(Atlas, AnElasticLawKeepsItsClaim)
   elastic.yield_stress = std::numeric_limits<double>::infinity();
   LawRange options;
   options.depth = 0.4;
-  const BodyLaw law = law_from(shipped(), elastic, options);
+  const BodyLaw law = law_from(atlas(), elastic, options);
   EXPECT_NEAR(law.curve.end(), ElasticSphere::depth, 0.02);  // not beyond what was pressed
   EXPECT_EQ(law.certificate.atlas_error_restitution, 0);
   EXPECT_GT(law.certificate.atlas_error_force, 1e-3);
@@ -140,12 +135,11 @@ TEST(Atlas, AnElasticLawKeepsItsClaim)
 
 TEST(Atlas, SaysWhatLiesOutside)
 {
-  const Atlas& atlas = shipped();
-  EXPECT_EQ(atlas.why_not({100, 0.3, 0.01}), "");
-  EXPECT_NE(atlas.why_not({19, 0.3, 0.01}).find("E*/Y"), std::string::npos);
-  EXPECT_NE(atlas.why_not({100, 0.495, 0.01}).find("nu"), std::string::npos);
-  EXPECT_NE(atlas.why_not({100, 0.3, 0.31}).find("H/E"), std::string::npos);
-  EXPECT_NE(atlas.why_not({NAN, 0.3, 0}).find("E*/Y"), std::string::npos);
+  EXPECT_EQ(atlas().why_not({100, 0.3, 0.01}), "");
+  EXPECT_NE(atlas().why_not({19, 0.3, 0.01}).find("E*/Y"), std::string::npos);
+  EXPECT_NE(atlas().why_not({100, 0.495, 0.01}).find("nu"), std::string::npos);
+  EXPECT_NE(atlas().why_not({100, 0.3, 0.31}).find("H/E"), std::string::npos);
+  EXPECT_NE(atlas().why_not({NAN, 0.3, 0}).find("E*/Y"), std::string::npos);
 }
 
 RC_GTEST_PROP(Atlas, EveryLawInsideIsAdmissible, ())
@@ -155,7 +149,7 @@ RC_GTEST_PROP(Atlas, EveryLawInsideIsAdmissible, ())
   m.poisson_ratio = 0.49 * *rc::gen::inRange(0, 1001) / 1000.0;
   m.hardening =
       *rc::gen::inRange(0, 4) == 0 ? 0 : 1e-4 * std::pow(3000.0, *rc::gen::inRange(0, 1001) / 1000.0);
-  const BodyLaw law = law_from(shipped(), material(m), {});  // throws where it is not
+  const BodyLaw law = law_from(atlas(), material(m), {});  // throws where it is not
   RC_ASSERT(tests::loses_no_less_further_on(law.curve));
   RC_ASSERT(law.curve.axis() != nullptr);  // at I = 0.0625 dropping it would cost more than 1 %
   RC_ASSERT(law.certificate.axis_cost_force > 0.01);
@@ -167,7 +161,7 @@ Atlas with_checks(int count)
   std::vector<AtlasCheck> checks;
   for (int k = 1; k <= count; ++k)
     checks.push_back({{100, 0.3, 0}, 0.1, k % 2 ? 1.0 * k : -1.0 * k, 0.1 * k, 0});
-  return Atlas(shipped().grid(), shipped().nodes(), shipped().elastic_spheres(), checks);
+  return Atlas(atlas().grid(), atlas().nodes(), atlas().elastic_spheres(), checks);
 }
 
 TEST(Atlas, ClaimsABoundThatItsChecksTellWithConfidence)
@@ -181,24 +175,23 @@ TEST(Atlas, ClaimsABoundThatItsChecksTellWithConfidence)
   // one wild check of a hundred must not exceed twice the claim
   std::vector<AtlasCheck> checks = with_checks(100).checks();
   checks.back().error_force = 1000;
-  EXPECT_EQ(Atlas(shipped().grid(), shipped().nodes(), shipped().elastic_spheres(), checks).claimed_force(),
+  EXPECT_EQ(Atlas(atlas().grid(), atlas().nodes(), atlas().elastic_spheres(), checks).claimed_force(),
             500);
 }
 
 TEST(Atlas, ClaimsWhatItsChecksFound)
 {
-  const Atlas& atlas = shipped();
-  ASSERT_GE(atlas.checks().size(), 100u);
+  ASSERT_GE(atlas().checks().size(), 100u);
   std::size_t force = 0, restitution = 0;
-  for (const AtlasCheck& c : atlas.checks()) {
-    force += std::abs(c.error_force) <= atlas.claimed_force();
-    restitution += std::abs(c.error_restitution) <= atlas.claimed_restitution();
-    EXPECT_LE(std::abs(c.error_force), 2 * atlas.claimed_force());
-    EXPECT_LE(std::abs(c.error_restitution), 2 * atlas.claimed_restitution());
+  for (const AtlasCheck& c : atlas().checks()) {
+    force += std::abs(c.error_force) <= atlas().claimed_force();
+    restitution += std::abs(c.error_restitution) <= atlas().claimed_restitution();
+    EXPECT_LE(std::abs(c.error_force), 2 * atlas().claimed_force());
+    EXPECT_LE(std::abs(c.error_restitution), 2 * atlas().claimed_restitution());
   }
-  EXPECT_GE(static_cast<double>(force), 0.95 * static_cast<double>(atlas.checks().size()));
-  EXPECT_GE(static_cast<double>(restitution), 0.95 * static_cast<double>(atlas.checks().size()));
-  EXPECT_LT(atlas.claimed_force(), 0.01);  // required bound
+  EXPECT_GE(static_cast<double>(force), 0.95 * static_cast<double>(atlas().checks().size()));
+  EXPECT_GE(static_cast<double>(restitution), 0.95 * static_cast<double>(atlas().checks().size()));
+  EXPECT_LT(atlas().claimed_force(), 0.01);  // required bound
 }
 
 }  // namespace granulaw::atlas_test

@@ -2,7 +2,6 @@
 #include "base/error.hpp"
 #include "characterise/run/sampling_plan.hpp"
 #include "characterise/run/request.hpp"
-#include "characterise/atlas_file.hpp"
 #include "characterise/build/build_law.hpp"
 
 #include <fmt/format.h>
@@ -17,6 +16,7 @@
 #include "law/replay.hpp"
 #include "law_paths.hpp"
 #include "synthetic_law.hpp"
+#include "own_atlas.hpp"
 
 namespace granulaw::build_law_test {
 
@@ -226,22 +226,21 @@ TEST(BuildLaw, PressesGetTheCellsThatTheirErrorAsksFor)
 /// Without rate the body is one that the atlas holds: no press is made of it.
 TEST(BuildLaw, TheAtlasTellsARateDependentSphereAtNoRate)
 {
-  const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
   KnownSphere sphere;
   sphere.rated = true;
   sphere.build(0.01);
   EXPECT_FALSE(sphere.presses.empty());
   sphere.presses.clear();
-  sphere.atlas = &atlas;
+  sphere.atlas = &tests::atlas();
   const BuiltLaw built = sphere.build(0.01);
   EXPECT_TRUE(sphere.presses.empty());
   EXPECT_FALSE(built.rate_free.empty());
-  EXPECT_EQ(built.law.certificate.atlas_error_force, atlas.claimed_force());
+  EXPECT_EQ(built.law.certificate.atlas_error_force, tests::atlas().claimed_force());
   // impacts that took no part: to what the sampling plan is refined to
   EXPECT_LT(built.law.certificate.verification_error_force, 0.01);
   EXPECT_LT(built.law.certificate.verification_error_restitution, 0.01);
   // the atlas is not as exact as this
-  sphere.build(0.5 * atlas.claimed_force());
+  sphere.build(0.5 * tests::atlas().claimed_force());
   EXPECT_FALSE(sphere.presses.empty());
 }
 
@@ -249,9 +248,8 @@ TEST(BuildLaw, TheAtlasTellsARateDependentSphereAtNoRate)
 /// away is no error of theirs.
 TEST(BuildLaw, WhatNoCellsTakeAwayAsksForNone)
 {
-  const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
   KnownSphere sphere;
-  sphere.rated = true, sphere.atlas = &atlas, sphere.scatter = 0.03;
+  sphere.rated = true, sphere.atlas = &tests::atlas(), sphere.scatter = 0.03;
   sphere.build(0.01);
   for (const auto& run : sphere.impacts) EXPECT_LE(run.cells, 24);
 }

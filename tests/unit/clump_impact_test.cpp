@@ -17,7 +17,7 @@ BodyLaw law()
   m.density = 1000, m.youngs_modulus = 0.91e9, m.poisson_ratio = 0.3, m.yield_stress = 20e6;
   LawRange options;
   options.depth = 0.5;
-  return law_from(tests::own_atlas(), law_material("powder", m), options);
+  return law_from(tests::atlas(), law_material("powder", m), options);
 }
 
 constexpr double radius = 1e-3, mass = 1e-5, speed = 10;

@@ -17,6 +17,8 @@
 
 namespace granulaw::composed_law_test {
 
+using tests::atlas;
+
 /// E* = rho = 1 for the first.
 LawMaterial material(const char* name, double e_star, double yield, double nu = 0.3, double density = 1)
 {
@@ -26,12 +28,6 @@ LawMaterial material(const char* name, double e_star, double yield, double nu = 
   return m;
 }
 constexpr double never = std::numeric_limits<double>::infinity(), wall = never;
-
-const Atlas& atlas()
-{
-  static const Atlas one = tests::own_atlas();
-  return one;
-}
 
 TwoBodyLaw composed(const LawMaterial& s, const LawMaterial& h, double radius_ratio, double fastest = 0)
 {

@@ -38,7 +38,7 @@ double error_of_e(const auto& force, double m_eff, double speed, double dt, doub
 /// Largest error of e over phases, materials, pairs and speeds, with the step that `share` of the largest is.
 double worst_error(double share)
 {
-  const Atlas atlas = tests::own_atlas();
+  const Atlas atlas = tests::atlas();
   const double radius = 1e-3, mass = 4.0 / 3.0 * M_PI * 1000 * radius * radius * radius;
   LawRange options;
   options.depth = 0.5, options.fastest = 0.3;

@@ -28,7 +28,7 @@ class CorrectedLaw : public ::testing::Test
 {
  protected:
   UnlikePair pair_{material("powder", 1, 0.02, 1), material("rubber", 0.2, never, 1), 1};
-  const Atlas atlas_ = tests::own_atlas();
+  const Atlas atlas_ = tests::atlas();
   const PairBody powder_{atlas_, pair_.yielding}, rubber_{atlas_, pair_.partner};
   BuildOptions options_;
 

@@ -13,11 +13,7 @@
 
 namespace granulaw::finish_curve_test {
 
-const Atlas& atlas()
-{
-  static const Atlas one = tests::own_atlas();
-  return one;
-}
+using tests::atlas;
 
 /// A soft material and a partner of other stiffness and density.
 struct Materials
@@ -102,10 +98,10 @@ TEST_P(OmittedAxis, CostIsPartOfTheBoundAtEverySpeed)
 
 // At 0.0316, I = 0.001, the default tolerance leaves out axes that change e by up to 1 %
 INSTANTIATE_TEST_SUITE_P(Laws, OmittedAxis,
-                         ::testing::Values(Row{{100, 0, 10, 20, 3}, 0.1, 0.25}, Row{{30, 0, 0.5, 0.4, 1}, 0.1, 0.2},
-                                           Row{{300, 0.03, 2, 2, 2}, 0.1, 0.25}, Row{{1000, 0, 1, 1, 1}, 0.1, 0.15},
-                                           Row{{100, 0, 10, 20, 3}, 0.01, 0.0316}, Row{{1000, 0.1, 1, 5, 3}, 0.01, 0.0316},
+                         ::testing::Values(Row{{100, 0, 10, 20, 3}, 0.1, 0.25}, Row{{1000, 0, 1, 1, 1}, 0.1, 0.15}, Row{{100, 0, 10, 20, 3}, 0.01, 0.0316},
                                            Row{{300, 0, 3, 5, 1}, 0.003, 0.01}));
+INSTANTIATE_TEST_SUITE_P(LawsSlow, OmittedAxis,
+                         ::testing::Values(Row{{30, 0, 0.5, 0.4, 1}, 0.1, 0.2}, Row{{300, 0.03, 2, 2, 2}, 0.1, 0.25}, Row{{1000, 0.1, 1, 5, 3}, 0.01, 0.0316}));
 
 TEST(OmittedAxis, IsInTheTextOfEveryPair)
 {

@@ -7,17 +7,13 @@
 #include "atlas/departure.hpp"
 #include "atlas/tabulate_curve.hpp"
 #include "base/scales.hpp"
-#include "characterise/atlas_file.hpp"
+#include "own_atlas.hpp"
 
 namespace granulaw::guide_test {
 
-constexpr double stiffness = 150, poisson_ratio = 0.3;
+using tests::atlas;
 
-const Atlas& atlas()
-{
-  static const Atlas read = read_atlas(GRANULAW_ATLAS_FILE);
-  return read;
-}
+constexpr double stiffness = 150, poisson_ratio = 0.3;
 
 double e_over_y()
 {

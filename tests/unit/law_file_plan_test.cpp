@@ -1,4 +1,3 @@
-#include "characterise/atlas_file.hpp"
 #include "characterise/file/law_file_plan.hpp"
 
 #include <fmt/format.h>
@@ -12,11 +11,7 @@
 
 namespace granulaw::law_file_plan_test {
 
-const Atlas& atlas()
-{
-  static const Atlas read = read_atlas(GRANULAW_ATLAS_FILE);
-  return read;
-}
+using tests::atlas;
 
 LawFileRequest request(std::vector<std::pair<std::string, std::string>> pairs = {})
 {

@@ -1,4 +1,3 @@
-#include "characterise/atlas_file.hpp"
 #include "characterise/body/law_body.hpp"
 #include "characterise/file/make_law_file.hpp"
 
@@ -9,6 +8,7 @@
 #include "law/law_file.hpp"
 #include "scratch_folder.hpp"
 #include "some_materials.hpp"
+#include "own_atlas.hpp"
 
 namespace granulaw::make_law_file_test {
 
@@ -20,8 +20,7 @@ TEST_F(MakeLawFile, FromTheAtlasWithoutARun)
 {
   LawFileRequest request;
   request.materials = some_materials();
-  const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
-  request.atlas = &atlas;
+  request.atlas = &tests::atlas();
   request.radius_ratio = 2;
   const LawFilePlan plan = plan_law_file(request);
   const MadeLawFile made = make_law_file(plan);
@@ -48,8 +47,7 @@ TEST_F(MakeLawFile, APairThatCannotBeComposedFollowsTheRule)
   LawFileRequest request;
   request.materials = some_materials();
   request.pairs = {{"powder", "glass"}};
-  const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
-  request.atlas = &atlas;
+  request.atlas = &tests::atlas();
   const auto made_to = [&](double depth) {
     request.depth = depth;
     return make_law_file(plan_law_file(request));
@@ -76,8 +74,7 @@ TEST_F(MakeLawFile, APairWithASoftElasticPartnerIsComposed)
   request.materials = {"test", {{"hard", hard}, {"soft", soft}}, {}};
   request.pairs = {{"hard", "soft"}};
   request.radius_ratio = 2;
-  const Atlas atlas = read_atlas(GRANULAW_ATLAS_FILE);
-  request.atlas = &atlas;
+  request.atlas = &tests::atlas();
   const LawFilePlan plan = plan_law_file(request);
   const MadeLawFile made = make_law_file(plan);
   ASSERT_EQ(made.law.pair_laws.at("hard:soft").size(), plan.pairs.at(0).composed_at.size());

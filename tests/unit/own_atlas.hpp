@@ -4,10 +4,13 @@
 
 namespace granulaw::tests {
 
-/// The atlas of the source tree.
-inline Atlas own_atlas()
+/// The atlas of the source tree, read once.
+inline const Atlas& atlas()
 {
-  return read_atlas(GRANULAW_ATLAS_FILE);
+  static const Atlas read = read_atlas(GRANULAW_ATLAS_FILE);
+  return read;
 }
+
+inline const Atlas& own_atlas() { return atlas(); }
 
 }  // namespace granulaw::tests

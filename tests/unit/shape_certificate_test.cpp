@@ -25,7 +25,7 @@ BodyLaw law()
 {
   LawRange options;
   options.depth = 0.5;
-  return law_from(tests::own_atlas(), law_material("powder", powder()), options);
+  return law_from(tests::atlas(), law_material("powder", powder()), options);
 }
 
 Particle of_shape(SharedShape solid)
@@ -63,7 +63,7 @@ TEST(ShapeCertificate, OfASphereIsTheSolversError)
 }
 
 /// A corner of radius r is flattened over more than r: no sphere of that radius gives what follows.
-TEST(ShapeCertificate, SaysWhereACornerIsFlattened)
+TEST(ShapeCertificateSlow, SaysWhereACornerIsFlattened)
 {
   const Vector3 sides(2e-3, 2e-3, 2e-3);
   ThreadFarm farm(2);

@@ -71,39 +71,49 @@ class Allocations : public testing::TestWithParam<Job>
 {
 };
 
-/// A whole impact or press, over which the contact grows from one surface point to all that it ever covers.
-/// The first step alone may allocate, what is kept for all others.
+/// A whole impact or press, over which the contact grows from one surface point to all that it ever covers; in space oblique and
+/// with friction. The first step alone may allocate, what is kept for all others.
 TEST_P(Allocations, NoneAfterTheFirstStep)
 {
+  const Job& job = GetParam();
   RunOptions options;
-  options.grid = GetParam().grid;
-  options.precision = GetParam().precision;
+  options.grid = job.grid, options.precision = job.precision;
   const Particle particle = reference::unit_sphere(100);
   Partner partner;
-  if (GetParam().partner) partner.particle = Particle::sphere(1.5, reference::unit_sphere(80).materials[0]);
-  constexpr double velocity = 0.02, depth = 0.02;
-  const bool pressed = GetParam().pressed;
-  const Collision collision(particle, partner, options, Support::free);
-  Scene scene = collision.build(pressed ? depth : collision.expected_overlap(velocity), 8, 0.0);
-  const double reduced = scene.reduced_mass();
+  if (job.partner) partner.particle = Particle::sphere(1.5, reference::unit_sphere(80).materials[0]);
+  constexpr double depth = 0.02;
+  const bool spatial = job.grid == GridKind::spatial;
+  const double velocity = spatial ? 0.1 : 0.02;
+  Plane wall{Vector3::UnitZ(), std::nan("")};
+  wall.friction = 0.3;
+  std::unique_ptr<Collision> collision;
+  std::unique_ptr<SpatialSetup> setup;
+  if (spatial)
+    setup = std::make_unique<SpatialSetup>(particle, Eigen::Matrix3d::Identity(), std::vector{wall}, std::array{false, true, false}, options);
+  else
+    collision = std::make_unique<Collision>(particle, partner, options, Support::free);
+  Scene scene = spatial ? setup->build(setup->expected_overlap(velocity), 6, 0.0)
+                        : collision->build(job.pressed ? depth : collision->expected_overlap(velocity), 8, 0.0);
+  const double reduced = spatial ? 0 : scene.reduced_mass();
   std::vector<StableStep> stable;
   for (Body& body : scene.bodies) {
     stable.emplace_back(body);
-    if (!pressed) throw_body(body, {0, 0, -velocity * reduced / body.mass()});
+    if (spatial)
+      throw_body(body, {velocity, 0, -velocity}, Vector3::Zero(), scene.centre);
+    else if (!job.pressed)
+      throw_body(body, {0, 0, -velocity * reduced / body.mass()});
   }
   Flight impact(20);
-  Press press({{0.5 * depth, depth}, 10, 4}, collision.e_star(), std::make_unique<BodyForce>());
-  Programme& programme = pressed ? static_cast<Programme&>(press) : impact;
+  Press press({{0.5 * depth, depth}, 10, 4}, spatial ? 1 : collision->e_star(), std::make_unique<BodyForce>());
+  Programme& programme = job.pressed ? static_cast<Programme&>(press) : impact;
 
   long first = 0, steps = 0, touching = 0;
   double time = 0, widest = 0;
   while (!programme.finished()) {
     double dt = 1;
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-      dt = std::min(dt, 0.85 * stable[b].limit(scene.bodies[b]));
-    const double impulse = advance(scene, programme, time, dt, dt);
-    const double radius = scene.contact->edge_radius(scene.bodies);
-    programme.observe({time, 0, impulse / dt, radius, Branch::load, 0});
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) dt = std::min(dt, 0.85 * stable[b].limit(scene.bodies[b]));
+    const double impulse = advance(scene, programme, time, dt, dt), radius = spatial ? 1 : scene.contact->edge_radius(scene.bodies);
+    if (!spatial) programme.observe({time, 0, impulse / dt, radius, Branch::load, 0});
     touching += impulse > 0;
     widest = larger(widest, radius);
     time += dt;
@@ -111,44 +121,9 @@ TEST_P(Allocations, NoneAfterTheFirstStep)
     ASSERT_EQ(allocations, first) << "in step " << steps;
     ASSERT_LT(steps, 100000);
   }
-  EXPECT_GT(touching, 200);
+  EXPECT_GT(touching, spatial ? 50 : 200);
   EXPECT_GT(widest, 0.1);  // over several of the 8 cells of the block
 }
-
-/// The same in three dimensions, oblique and with friction.
-class SpatialAllocations : public testing::TestWithParam<Precision>
-{
-};
-
-TEST_P(SpatialAllocations, NoneAfterTheFirstStep)
-{
-  Plane wall{Vector3::UnitZ(), std::nan("")};
-  wall.friction = 0.3;
-  RunOptions options;
-  options.precision = GetParam();
-  const SpatialSetup setup(reference::unit_sphere(100), Eigen::Matrix3d::Identity(), {wall},
-                           {false, true, false}, options);
-  constexpr double velocity = 0.1;
-  Scene scene = setup.build(setup.expected_overlap(velocity), 6, 0.0);
-  Body& body = scene.bodies.front();
-  const StableStep stable(body);
-  throw_body(body, {velocity, 0, -velocity}, Vector3::Zero(), scene.centre);
-  Flight programme(20);
-  long first = 0, steps = 0, touching = 0;
-  double time = 0;
-  while (!programme.finished()) {
-    const double dt = 0.85 * stable.limit(body);
-    touching += advance(scene, programme, time, dt, dt) > 0;
-    time += dt;
-    if (++steps == 1) first = allocations;
-    ASSERT_EQ(allocations, first) << "in step " << steps;
-    ASSERT_LT(steps, 100000);
-  }
-  EXPECT_GT(touching, 50);
-}
-
-INSTANTIATE_TEST_SUITE_P(Precisions, SpatialAllocations, testing::Values(Precision::full, Precision::single),
-                         [](const auto& p) { return p.param == Precision::full ? "full" : "single"; });
 
 TEST(Allocations, AreCounted)
 {
@@ -158,15 +133,12 @@ TEST(Allocations, AreCounted)
 }
 
 INSTANTIATE_TEST_SUITE_P(Grids, Allocations,
-                         testing::Values(Job{"mapped", GridKind::mapped, Precision::full},
-                                         Job{"rectilinear", GridKind::rectilinear, Precision::full},
-                                         Job{"updated", GridKind::updated, Precision::full},
-                                         Job{"two_mapped", GridKind::mapped, Precision::full, true},
+                         testing::Values(Job{"mapped", GridKind::mapped, Precision::full}, Job{"rectilinear", GridKind::rectilinear, Precision::full},
+                                         Job{"updated", GridKind::updated, Precision::full}, Job{"two_mapped", GridKind::mapped, Precision::full, true},
                                          Job{"two_rectilinear", GridKind::rectilinear, Precision::full, true},
-                                         Job{"single_precision", GridKind::rectilinear, Precision::single},
-                                         Job{"press", GridKind::mapped, Precision::full, false, true},
-                                         Job{"press_two", GridKind::rectilinear, Precision::full, true,
-                                             true}),
+                                         Job{"single_precision", GridKind::rectilinear, Precision::single}, Job{"press", GridKind::mapped, Precision::full, false, true},
+                                         Job{"press_two", GridKind::rectilinear, Precision::full, true, true}, Job{"spatial", GridKind::spatial, Precision::full},
+                                         Job{"spatial_single", GridKind::spatial, Precision::single}),
                          [](const auto& job) { return job.param.name; });
 
 }  // namespace granulaw::allocation_test

@@ -62,7 +62,8 @@ const std::vector<Case>& hardening_cases()
          for (int k = 0; k < 4; ++k)
            if (e < x[k + 1]) return y[k] + (y[k + 1] - y[k]) * (e - x[k]) / (x[k + 1] - x[k]);
          return y[4];
-       }}};
+       }},
+      {"perfect", {}, [](double) { return yield; }}};
   return cases;
 }
 
@@ -100,28 +101,37 @@ Material material(const FlowLaw& hardening, const FlowLaw& rate = {})
   return m;
 }
 
-/// One ring-shaped cell whose nodes follow u_r = (lr - 1) r, u_z = (lz - 1) z.
-Body ring(const Material& m)
+/// One ring-shaped cell.
+Body ring(const Phase& phase)
 {
   MappedGrid g;
   g.nodes = {{1, 0}, {2, 0}, {2, 1}, {1, 1}};
   g.cells = {{0, 1, 2, 3}};
-  const flow::Flow laws = flow_of(m, 1, 1);
   g.volume = 3 * M_PI;
-  return mapped_body(
-      g, {{shear, bulk, yield, laws.hardening == 0 ? laws.hardening_values[0] : 0, true, laws}}, 0.0);
+  return mapped_body(g, phase, 0.0);
+}
+Body ring(const Material& m)
+{
+  const flow::Flow laws = flow_of(m, 1, 1);
+  return ring(Phase{{shear, bulk, yield, laws.hardening == 0 ? laws.hardening_values[0] : 0, true, laws}});
+}
+Body linear_ring(double hardening)
+{
+  return ring(Phase{{shear, bulk, yield, hardening, true}});
 }
 
-/// Isochoric compression to ln(lz) = -t along fixed principal axes, `dt` after the last one: q = 3 G t while
-/// elastic.
+/// Its nodes follow u_r = (lr - 1) r, u_z = (lz - 1) z.
+void stretch_to(Body& b, double lr, double lz)
+{
+  for (int i = 0; i < b.nodes(); ++i) b.u_i(i, 0) = (lr - 1) * b.reference().place_i(i, 0), b.u_i(i, 1) = (lz - 1) * b.reference().place_i(i, 1);
+  kernels(b).points_to_grid(b);
+}
+
+/// Isochoric compression to ln(lz) = -t along fixed principal axes, `dt` after the last one: q = 3 G t while elastic.
 void compress(Body& b, double t, double dt)
 {
-  const double lr = std::exp(0.5 * t), lz = std::exp(-t);
-  for (int i = 0; i < b.nodes(); ++i)
-    b.u_i(i, 0) = (lr - 1) * b.reference().place_i(i, 0),
-             b.u_i(i, 1) = (lz - 1) * b.reference().place_i(i, 1);
   b.elapsed = dt;
-  kernels(b).points_to_grid(b);
+  stretch_to(b, std::exp(0.5 * t), std::exp(-t));
 }
 
 double root(const std::function<double(double)>& f, double low, double high)
@@ -136,6 +146,38 @@ double root(const std::function<double(double)>& f, double low, double high)
 double stress_of(const Body& b)
 {
   return std::sqrt(6 * shear * b.state.elastic_energy_p[0] / b.reference().volume_p[0]);
+}
+
+/// A frozen evaluation keeps the plastic state, and its response is elastic about it: where nothing flows,
+/// the forces are the same.
+TEST(J2, FrozenResponseIsElasticAboutThePlasticState)
+{
+  Body b = linear_ring(0.05);
+  for (int k = 1; k <= 100; ++k) stretch_to(b, std::exp(0.0005 * k), std::exp(-0.001 * k));
+  stretch_to(b, std::exp(0.0005 * 99), std::exp(-0.001 * 99));
+  const NodeField before = b.f_i;
+  const double strain = b.state.plastic_strain_p[0];
+  kernels(b).elastic_response(b);
+  EXPECT_EQ(b.state.plastic_strain_p[0], strain);
+  for (int i = 0; i < b.nodes(); ++i) {
+    // roundings of two compilations of the same sums
+    EXPECT_NEAR(b.f_i(i, 0), before(i, 0), 1e-15);
+    EXPECT_NEAR(b.f_i(i, 1), before(i, 1), 1e-15);
+  }
+}
+
+/// A closed elastic-plastic loop: unloading to zero deviator and back is elastic.
+TEST(J2, UnloadingIsElastic)
+{
+  Body b = linear_ring(0.05);
+  for (int k = 1; k <= 100; ++k) stretch_to(b, std::exp(0.0005 * k), std::exp(-0.001 * k));
+  const double strain = b.state.plastic_strain_p[0], energy = b.state.elastic_energy_p[0];
+  for (int k = 100; k >= 95; --k) stretch_to(b, std::exp(0.0005 * k), std::exp(-0.001 * k));
+  EXPECT_EQ(b.state.plastic_strain_p[0], strain);
+  EXPECT_LT(b.state.elastic_energy_p[0], energy);
+  for (int k = 95; k <= 100; ++k) stretch_to(b, std::exp(0.0005 * k), std::exp(-0.001 * k));
+  EXPECT_NEAR(b.state.plastic_strain_p[0], strain, 1e-14);  // back on the yield surface to rounding
+  EXPECT_NEAR(b.state.elastic_energy_p[0], energy, 1e-14);
 }
 
 /// A law may start up to 0.1 % below `yield_stress` (validate_flow): it flows from there.
@@ -165,7 +207,7 @@ TEST(FlowLaws, HardeningAtLargeStrain)
         const double ep = 3 * shear * t <= yield
                               ? 0
                               : root([&](double e) { return c.stress(e) - 3 * shear * (t - e); }, 0, t);
-        // 2400 steps, each rounding strains of order 10 in b (the same bound as J2.RadialLoadingIsExact)
+        // 2400 steps, each rounding strains of order 10 in b
         ASSERT_NEAR(b.state.plastic_strain_p[0], ep, 1e-10) << c.name << " at " << t;
         if (k % (steps / 8) == 0) {
           EXPECT_NEAR(stress_of(b) / c.stress(ep), 1, 1e-8) << c.name;  // q = 3 G (t - ep): 1e-10/(Y/3G)
@@ -189,12 +231,9 @@ TEST(FlowLaws, FlowAtTheirCauchyStress)
   constexpr double squeeze = 0.9, jacobian = squeeze * squeeze * squeeze;
   for (const Case& c : hardening_cases()) {
     Body b = ring(material(c.hardening));
-    for (int k = 0; k <= 200; ++k) {
-      const double lr = squeeze * std::exp(0.0005 * k), lz = squeeze * std::exp(-0.001 * k);
-      for (int i = 0; i < b.nodes(); ++i)
-        b.u_i(i, 0) = (lr - 1) * b.reference().place_i(i, 0), b.u_i(i, 1) = (lz - 1) * b.reference().place_i(i, 1);
-      kernels(b).points_to_grid(b);
-    }
+    stretch_to(b, squeeze, squeeze);
+    EXPECT_EQ(b.state.plastic_strain_p[0], 0) << c.name;  // pressure alone
+    for (int k = 1; k <= 200; ++k) stretch_to(b, squeeze * std::exp(0.0005 * k), squeeze * std::exp(-0.001 * k));
     const double ln_j = std::log(jacobian), deviatoric = b.state.elastic_energy_p[0] / b.reference().volume_p[0] - 0.5 * bulk * ln_j * ln_j;
     EXPECT_GT(b.state.plastic_strain_p[0], 0.1);
     EXPECT_NEAR(std::sqrt(6 * shear * deviatoric) / (jacobian * c.stress(b.state.plastic_strain_p[0])), 1, 1e-8) << c.name;  // as q above
@@ -206,10 +245,8 @@ TEST(FlowLaws, FlowAtTheirCauchyStress)
 /// the solution of the differential equation at first order.
 TEST(FlowLaws, RateDependenceUnderConstantRate)
 {
-  std::vector<Case> cases = hardening_cases();
-  cases.push_back({"perfect", {}, [](double) { return yield; }});
   constexpr double last = 1.5;
-  for (const Case& c : cases)
+  for (const Case& c : hardening_cases())
     for (const RateCase& r : rate_cases())
       for (const double speed : {3e-3, 0.3}) {  // on either side of the reference rate of Cowper-Symonds
         const double duration = last / speed;

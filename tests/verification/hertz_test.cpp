@@ -248,7 +248,7 @@ TEST(Hertz, PressureDistribution)
 /// nu, and what is left is the cells' second order: rms 0.0058, 0.0026, 0.0015 of p0 with 16, 24, 32 cells.
 TEST(Hertz, PressureOnTheMovedSurface)
 {
-  for (const double nu : {0.0, 0.3, 0.45}) {
+  for (const double nu : {0.0, 0.45}) {
     const PressedSphere s = press_elastic(nu, 2e-3, 20);
     const Deviation d = from_moved_surface(s);
     std::printf("nu %.2f: rms %.4f, largest %.4f; the surface's motion, in the middle: %.4f\n", nu, d.rms,
@@ -258,7 +258,7 @@ TEST(Hertz, PressureOnTheMovedSurface)
   }
 }
 
-TEST(Hertz, PressureConverges)
+TEST(HertzSlow, PressureConverges)
 {
   const std::vector<int> cells{12, 14, 16, 18, 20, 24};
   std::vector<double> errors;

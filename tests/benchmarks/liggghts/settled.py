@@ -9,7 +9,6 @@
     two         2016 spheres of two materials (E*/Y = 100 and 1000) and two sizes (radii 1.5 : 1) at rest; laws of `mpm table --radius-ratio 1.5`
     two_flow    the same on an incline of 23 degrees; Hertz has e = 0.1. Model mpm_nowaves: mpm with `waves off`
     pressed     810 spheres in a periodic box, pressed from all sides to a density of 0.94 at 0.001 c*/R; a law of `mpm table` at E*/Y = 100
-    N x C       N spheres of a periodic packing with C contacts a sphere, pressed together: 6 (cubic) and 3 (honeycombs)
 
 `--models plastic` is model mpm with `tangential plastic`.
 
@@ -20,7 +19,7 @@ without what `run 0` takes. On one line with them stand the error of the force t
 sampled from) and, with --before FOLDER, the largest relative difference that kinetic and rotational energy have at the end from those of
 the plug-in in FOLDER, which runs in turn with this one. Standard library only, but for the hopper, whose scene needs numpy.
 
-    ninja benchmark_settled          (or: settled.py [--rounds 10] [--scenes two two_flow --sizes --models hertz mpm mpm_nowaves] [--sizes 3000 100000] [--before FOLDER])
+    ninja benchmark_settled          (or: settled.py [--rounds 10] [--scenes two two_flow --models hertz mpm mpm_nowaves] [--before FOLDER])
 """
 import argparse
 import itertools
@@ -36,7 +35,6 @@ import tempfile
 
 import loop
 
-MPIRUN = os.environ.get("GRANULAW_MPIRUN", "mpirun")
 PACKING = pathlib.Path(__file__).resolve().parents[2] / "liggghts" / "packing_30.txt"
 HOPPER = pathlib.Path(__file__).resolve().parents[3] / "examples" / "hopper"
 R, DENSITY, MODULUS = loop.RADIUS, loop.DENSITY, loop.E
@@ -49,13 +47,11 @@ class Program:
     def __init__(self, folder, label):
         self.launcher, self.label = pathlib.Path(folder).resolve() / "liggghts-mpm", label
 
-    def run(self, folder, deck, ranks=1):
+    def run(self, folder, deck):
         """Text and user CPU of a run."""
         path = folder / f"in.{self.label}"
         path.write_text(deck)
         command = [str(self.launcher), "-in", str(path), "-log", "none"]
-        if ranks > 1:
-            command = [MPIRUN, "--oversubscribe", "-np", str(ranks)] + command
         environment = dict(os.environ, LD_LIBRARY_PATH=str(self.launcher.parent))
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", cwd=folder, env=environment)
@@ -77,8 +73,8 @@ class Scene:
     """A deck for each model. `prepare` writes the files that it reads."""
     one_law = True  # mpm.h5, whose force error is printed
 
-    def __init__(self, name, steps, ranks=1):
-        self.name, self.steps, self.ranks = name, steps, ranks
+    def __init__(self, name, steps):
+        self.name, self.steps = name, steps
 
     def prepare(self, folder, program, model):
         pass
@@ -213,55 +209,6 @@ class Chute(Scene):
         return text[:text.index("thermo 1000000")] + self.end(steps)
 
 
-class Packing(Scene):
-    """Spheres on a lattice in a periodic box, with a few per cent of random motion about it: every contact stays closed."""
-
-    def __init__(self, size, contacts, ranks):
-        self.contacts_a_sphere = contacts
-        self.cells, self.size = self.lattice(size)
-        super().__init__(f"{self.size} x {contacts}, {ranks} rank{'s' * (ranks > 1)}", max(60, 12_000_000 // (self.size * contacts)), ranks)
-
-    def lattice(self, size):
-        if self.contacts_a_sphere == 6:
-            n = round(size**(1 / 3))
-            return (n, n, n), n**3
-        # a honeycomb of nx by ny cells with four spheres each, nz layers
-        nx = max(3, round((size / 4)**(1 / 3)))
-        ny = nx
-        nz = max(3, round(size / (4 * nx * ny)))
-        return (nx, ny, nz), 4 * nx * ny * nz
-
-    def prepare(self, folder, program, model):
-        if (folder / self.data).exists():
-            return
-        rng = random.Random(7)
-        overlap = 0.004 * R  # beyond the law's onset
-        d = 2 * R - overlap
-        nx, ny, nz = self.cells
-        if self.contacts_a_sphere == 6:
-            box = (nx * d, ny * d, nz * d)
-            places = [((i + 0.5) * d, (j + 0.5) * d, (k + 0.5) * d) for k in range(nz) for j in range(ny) for i in range(nx)]
-        else:
-            a, b, h = math.sqrt(3) * d, 3 * d, 2.06 * R
-            box = (nx * a, ny * b, nz * h)
-            cell = ((0.25 * a, 0.25 * d), (0.75 * a, 0.75 * d), (0.75 * a, 1.75 * d), (0.25 * a, 2.25 * d))
-            places = [(i * a + x, j * b + y, (k + 0.5) * h) for k in range(nz) for j in range(ny) for i in range(nx) for x, y in cell]
-        rows = []
-        for x in places:
-            jitter = [repr(c + rng.uniform(-0.05, 0.05) * overlap) for c in x]
-            rows.append(jitter + [repr(rng.uniform(-1, 1) * 1e-3) for _ in range(3)] + ["0"] * 3)
-        loop.write_data(folder / self.data, rows, box)
-
-    @property
-    def data(self):
-        return f"packing.{self.size}.{self.contacts_a_sphere}.data"
-
-    def deck(self, program, model, steps):
-        return ("units si\nhard_particles yes\natom_style granular\natom_modify map array\nboundary p p p\nnewton off\n"
-                f"communicate single vel yes\nread_data {self.data}\nneighbor 0.0008 bin\nneigh_modify delay 0\n" + properties(model) +
-                f"pair_style gran {' '.join(model_words(model))}\npair_coeff * *\nfix i all nve/sphere\ntimestep {loop.DT}\n" + self.end(steps))
-
-
 class Pressed(Scene):
     """The packing of tests/liggghts/test_plastic_shear.py, 27 times."""
     one_law, density = False, (0.58, 0.94)
@@ -319,7 +266,7 @@ class Hopper(Scene):
 
 def scene_run(folder, scene, program, model, steps):
     """User CPU, loop time, time of pairs (s) and the energies at the end."""
-    text, cpu = program.run(folder, scene.deck(program, model, steps), scene.ranks)
+    text, cpu = program.run(folder, scene.deck(program, model, steps))
     seconds = max([float(w) for w in re.findall(r"^Loop time of (\S+)", text, re.M)] or [0.0])
     pair = max([float(w) for w in re.findall(r"^Pair  time \(%\) = (\S+)", text, re.M)] or [0.0])
     energies = [float(w) for w in re.findall(r"^ENERGY (\S+) (\S+)", text, re.M)[-1]]
@@ -361,19 +308,12 @@ def scenes(options):
              "two_flow": Two("two_flow", 2000, f"{loop.ANGLE[0]} 0 {-loop.ANGLE[1]}")}
     for name in options.scenes:
         yield found[name]
-    for size in options.sizes:
-        for contacts in options.contacts:
-            for ranks in options.ranks:
-                yield Packing(size, contacts, ranks)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rounds", type=int, default=10)
     parser.add_argument("--scenes", nargs="*", default=["rest", "frozen", "frozen_off", "frozen_all", "hopper", "chute"])
-    parser.add_argument("--sizes", nargs="*", type=int, default=[3000, 27000, 100000])
-    parser.add_argument("--contacts", nargs="+", type=int, default=[3, 6])
-    parser.add_argument("--ranks", nargs="+", type=int, default=[1, 2])
     parser.add_argument("--models", nargs="+", default=["hertz", "mpm", "thornton"])
     parser.add_argument("--before", action="append", default=[], help="folder of another plug-in and its launcher")
     parser.add_argument("--stiffness", type=float, help="E*/Y of a law of `mpm table`; default: the benchmark's law")

@@ -8,10 +8,11 @@
 #include "calibrate/calibrate.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/measurement_file.hpp"
-#include "characterise/atlas_file.hpp"
+#include "own_atlas.hpp"
 
 namespace granulaw::hardness_test {
 
+using tests::atlas;
 using testing::HasSubstr;
 
 constexpr double kgf_per_mm2 = 9.80665e6;  // Pa
@@ -43,12 +44,6 @@ std::vector<Metal> metals()
                    std::stod(w[5]) * 1e6, std::stod(w[6]), w[7] == "yes"});
   }
   return all;
-}
-
-const Atlas& atlas()
-{
-  static const Atlas read = read_atlas(GRANULAW_ATLAS_FILE);
-  return read;
 }
 
 CalibrationRequest request_of(const Metal& metal)

@@ -4,23 +4,18 @@
 #include <fstream>
 #include <sstream>
 
-#include "characterise/atlas_file.hpp"
 #include "calibrate/calibrate.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/kind/composed.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/measurement_file.hpp"
 #include "calibrate/noise.hpp"
+#include "own_atlas.hpp"
 
 namespace granulaw::kinds_test {
 
+using tests::atlas;
 using testing::HasSubstr;
-
-const Atlas& atlas()
-{
-  static const Atlas read = read_atlas(GRANULAW_ATLAS_FILE);
-  return read;
-}
 
 /// So strong that all of Brinell's balls leave dents that they may leave.
 LawMaterial stone()
@@ -66,6 +61,24 @@ Measurement measured(const Kind& kind)
   return m;
 }
 
+/// Of the stone's yield stress.
+CalibrationRequest request(std::vector<Measurement> measurements)
+{
+  CalibrationRequest r;
+  r.known = stone();
+  r.known.yield_stress = 0;
+  r.fit = {Parameter::yield_stress};
+  r.measurements = std::move(measurements);
+  return r;
+}
+
+std::string misfits(const CalibrationRequest& r)
+{
+  std::string all;
+  for (const Misfit& m : calibrate(CalibrationProblem(atlas(), r)).misfits) all += m.name + ";";
+  return all;
+}
+
 class OfEachKind : public testing::TestWithParam<const Kind*>
 {
 };
@@ -82,11 +95,7 @@ TEST_P(OfEachKind, ItsFileIsRead)
 
 TEST_P(OfEachKind, ItsModelGivesBackTheYieldStress)
 {
-  CalibrationRequest r;
-  r.known = stone();
-  r.known.yield_stress = 0;
-  r.fit = {Parameter::yield_stress};
-  r.measurements = {measured(*GetParam())};
+  CalibrationRequest r = request({measured(*GetParam())});
   const Calibration c = calibrate(CalibrationProblem(atlas(), r));
   // the same model made the data; a contact time hardly depends on Y
   EXPECT_NEAR(c.material.yield_stress / stone().yield_stress, 1, 0.02);
@@ -95,24 +104,15 @@ TEST_P(OfEachKind, ItsModelGivesBackTheYieldStress)
 
 TEST_P(OfEachKind, ItsOutliersAreNamed)
 {
-  CalibrationRequest r;
-  r.known = stone();
-  r.known.yield_stress = 0;
-  r.fit = {Parameter::yield_stress};
-  r.measurements = {measured(*GetParam())};
+  CalibrationRequest r = request({measured(*GetParam())});
   Datum& off = r.measurements[0].data[2];
   off.y *= GetParam()->y.most == 1 ? 0.5 : 3;
-  std::string all;
-  for (const Misfit& m : calibrate(CalibrationProblem(atlas(), r)).misfits) all += m.name + ";";
-  EXPECT_THAT(all, HasSubstr("outliers"));
+  EXPECT_THAT(misfits(r), HasSubstr("outliers"));
 }
 
 TEST_P(OfEachKind, ADesignExpectsAnIntervalOfIt)
 {
-  CalibrationRequest r;
-  r.known = stone();
-  r.known.yield_stress = 0;
-  r.fit = {Parameter::yield_stress};
+  const CalibrationRequest r = request({});
   const Kind& kind = *GetParam();
   const double place = kind.planned ? kind.contacts * 5e-5 : kind.x.exists() ? 2 : 0;
   const Design design(atlas(), r, stone(), {{form_of(kind), place}, {form_of(kind), place}}, 0.01);
@@ -130,6 +130,7 @@ TEST_P(OfEachKind, TheGuideHasItsRow)
               guide.find("| the same with `--kind " + word + "` |") != std::string::npos)
       << word;
   EXPECT_STRNE(kind.help, "");
+  EXPECT_EQ(&kind_named(kind.name, "test"), &kind);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, OfEachKind, testing::ValuesIn(kinds().begin(), kinds().end()),
@@ -140,23 +141,12 @@ INSTANTIATE_TEST_SUITE_P(Kinds, OfEachKind, testing::ValuesIn(kinds().begin(), k
                            return name;
                          });
 
-TEST(Kinds, NamesAreTheirOwn)
-{
-  for (const Kind* kind : kinds()) EXPECT_EQ(&kind_named(kind->name, "test"), kind);
-}
-
 /// A slow hardness counts against impacts: it is far below what the impacts show.
 TEST(Kinds, AHardnessIsHeldAgainstImpacts)
 {
-  CalibrationRequest r;
-  r.known = stone();
-  r.known.yield_stress = 0;
-  r.fit = {Parameter::yield_stress};
-  r.measurements = {measured(kind_named("restitution", "test")), measured(kind_named("hardness", "test"))};
+  CalibrationRequest r = request({measured(kind_named("restitution", "test")), measured(kind_named("hardness", "test"))});
   for (Datum& d : r.measurements[1].data) d.y *= 0.5, d.sd *= 0.5;
-  std::string all;
-  for (const Misfit& m : calibrate(CalibrationProblem(atlas(), r)).misfits) all += m.name + ";";
-  EXPECT_THAT(all, HasSubstr("rate;"));
+  EXPECT_THAT(misfits(r), HasSubstr("rate;"));
 }
 
 /// Contradictory data lead the search along directions that nothing determines; it steps to no number.
