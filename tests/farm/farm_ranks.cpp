@@ -2,8 +2,7 @@
 //
 //   farm_ranks CASE [--threads T] [--cache DIR] [--output FILE]
 //
-// Cases: batches    two batches of coarse solver runs, the second after the results of the first; FILE gets
-// all
+// Cases: batches    two batches of coarse solver runs, the second after the results of the first; FILE gets all
 //                   outcomes, bit for bit, but for the times
 //        failing    runs that fail once, always or not at all; prints what becomes of them on rank 0
 //        broken     a run on the last rank ends in another exception than Error
@@ -12,9 +11,6 @@
 //        without    as a maker of laws that does without a failed pair: what the last rank throws ends all the same
 //        alone      the last rank ends with an error of its own before the batch
 //        differ     the last rank has other runs to make
-//        sleep      runs that only sleep: FILE has lines "COST SECONDS"; rank 0 prints the seconds that the
-//        batch took.
-//                   Shows what the farm itself costs, on any number of ranks, however busy the machine is
 //        endless    runs that do not end; prints the process id of each rank
 #include <fmt/format.h>
 #include <unistd.h>
@@ -115,22 +111,6 @@ void failing(Farm& farm, bool talks)
   fmt::print("made {} retried {} failed {}\n", farm.count().made, farm.count().retried, farm.count().failed);
 }
 
-void sleep_through(Farm& farm, const std::string& list, bool talks)
-{
-  std::vector<RunJob> jobs;
-  std::ifstream in(list);
-  for (double cost, seconds; in >> cost >> seconds;)
-    jobs.push_back({"sleep", std::to_string(jobs.size()), cost, [seconds](const RunOptions&) {
-                      std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-                      return RunResult{};
-                    }});
-  farm.run({});  // all ranks are there
-  const auto start = std::chrono::steady_clock::now();
-  farm.run(jobs);
-  if (talks)
-    fmt::print("{:.4f}\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-}
-
 int act(const std::string& what, const std::string& output, Farm& farm, int rank, int size)
 {
   const bool last = rank == size - 1;
@@ -181,8 +161,6 @@ int act(const std::string& what, const std::string& output, Farm& farm, int rank
     farm.run(some);
   } else if (what == "differ") {
     farm.run({idle(last ? "x" : "a", 0.1), idle("b", 0.1)});
-  } else if (what == "sleep") {
-    sleep_through(farm, output, rank == 0);
   } else if (what == "endless") {
     fmt::print("{}\n", getpid());
     std::fflush(stdout);
