@@ -1,5 +1,4 @@
 // Geometry of particles against closed forms, and every sentence of validate.
-#include "base/larger.hpp"
 #include "solver/shape/particle.hpp"
 
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "base/larger.hpp"
 #include "refusal.hpp"
 #include "solver/shape/shapes.hpp"
 
@@ -62,16 +62,14 @@ TEST(Particle, Ellipsoids)
     // curvature at the end of semi-axis c of r^2/a^2 + z^2/c^2 = 1: a^2/c; the fit is cut off after r^4: the
     // next term is 1/16 0.1^4 of the first one, about 1e-5
     EXPECT_NEAR(p.pole_curvature_radius() / (radius / aspect), 1, 3e-5) << aspect;
-    for (const ProfilePoint& point : p.profile)
-      ASSERT_NEAR(std::hypot(point.r / radius, point.z / (aspect * radius) - 1), 1, 1e-14);  // rounding
+    for (const ProfilePoint& point : p.profile) ASSERT_NEAR(std::hypot(point.r / radius, point.z / (aspect * radius) - 1), 1, 1e-14);  // rounding
     // the true curve is nowhere farther than the chord error from the polyline
     for (int k = 0; k <= 10000; ++k) {
       const double t = pi * k / 10000;
       ASSERT_NEAR(p.depth(radius * std::sin(t), aspect * radius * (1 - std::cos(t))), 0, 1e-6 * radius) << t;
     }
     for (const double x : {0.0, 0.001, 0.1, 0.5, 0.9})
-      EXPECT_NEAR(p.surface_z(x * radius), aspect * radius * (1 - std::sqrt(1 - x * x)),
-                  1e-6 * radius * std::max(1.0, aspect * x / std::sqrt(1 - x * x)))
+      EXPECT_NEAR(p.surface_z(x * radius), aspect * radius * (1 - std::sqrt(1 - x * x)), 1e-6 * radius * std::max(1.0, aspect * x / std::sqrt(1 - x * x)))
           << x;  // chord error along z: over the cosine of the slope
     EXPECT_DOUBLE_EQ(p.surface_z(2 * radius), p.surface_z(radius));
     EXPECT_NEAR(p.surface_z(radius), aspect * radius, 1e-12 * radius);
@@ -88,9 +86,8 @@ void expect_surface(const Particle& p, const Distance& distance, const char* nam
   validate(p, name);
   for (std::size_t k = 0; k + 1 < p.profile.size(); ++k)
     for (const double t : {0.0, 0.5})  // points lie on the curve, chords within the error bound
-      ASSERT_NEAR(distance(p.profile[k].r + t * (p.profile[k + 1].r - p.profile[k].r),
-                           p.profile[k].z + t * (p.profile[k + 1].z - p.profile[k].z)),
-                  0, t == 0 ? 1e-14 * p.height() : 1e-6 * p.radius)
+      ASSERT_NEAR(distance(p.profile[k].r + t * (p.profile[k + 1].r - p.profile[k].r), p.profile[k].z + t * (p.profile[k + 1].z - p.profile[k].z)), 0,
+                  t == 0 ? 1e-14 * p.height() : 1e-6 * p.radius)
           << name << " " << k;
   double widest = 0;
   for (const ProfilePoint& point : p.profile) widest = larger(widest, point.r);
@@ -128,8 +125,7 @@ TEST(Particle, FlattenedSphere)
   // a fillet of next to nothing: a sphere less a cap
   const Particle cut = body(radius, flattened_sphere(radius, flat, 1e-4 * radius));
   const double h = radius - std::sqrt(radius * radius - flat * flat);
-  EXPECT_NEAR(cut.volume() / (4.0 / 3.0 * pi * std::pow(radius, 3) - pi * h * h * (3 * radius - h) / 3), 1,
-              volume_error);
+  EXPECT_NEAR(cut.volume() / (4.0 / 3.0 * pi * std::pow(radius, 3) - pi * h * h * (3 * radius - h) / 3), 1, volume_error);
 }
 
 TEST(Particle, ConicalTip)
@@ -174,8 +170,7 @@ TEST(Particle, Tablet)
   // an edge of next to nothing: a cylinder between two caps
   const Particle sharp = body(radius, tablet(radius, height, cap, 1e-4 * radius));
   const double h = cap - std::sqrt(cap * cap - radius * radius);
-  EXPECT_NEAR(sharp.volume() / (pi * radius * radius * (height - 2 * h) + 2 * pi * h * h * (3 * cap - h) / 3),
-              1, volume_error);
+  EXPECT_NEAR(sharp.volume() / (pi * radius * radius * (height - 2 * h) + 2 * pi * h * h * (3 * cap - h) / 3), 1, volume_error);
   // at its limits it is a sphere, with no edge and no band
   const Particle round = body(radius, tablet(radius, 2 * radius, radius, edge));
   expect_surface(
@@ -206,13 +201,11 @@ TEST(Particle, Outlines)
   EXPECT_LT(body(1e-3, dense).pole_curvature_radius(), 1e-5);
   // an outline with errors of 1e-5 of its size: the fit reaches farther instead of following them
   std::vector<ProfilePoint> rough = ellipsoid(1e-3, 1);
-  for (std::size_t k = 1; k + 1 < rough.size(); ++k)
-    rough[k].z += 1e-8 * (1 + std::sin(37.0 * static_cast<double>(k)));
+  for (std::size_t k = 1; k + 1 < rough.size(); ++k) rough[k].z += 1e-8 * (1 + std::sin(37.0 * static_cast<double>(k)));
   EXPECT_NEAR(body(1e-3, rough).pole_curvature_radius() / 1e-3, 1,
               0.02);  // 2e-8 of z = 5e-6 there: 0.4 %, and slack
   // a dimple: the lowest of several heights
-  const Particle dimple =
-      body(1e-3, {{0, 0}, {0.8e-3, 1e-3}, {0.6e-3, 0.2e-3}, {1e-3, 0.5e-3}, {1e-3, 2e-3}, {0, 3e-3}});
+  const Particle dimple = body(1e-3, {{0, 0}, {0.8e-3, 1e-3}, {0.6e-3, 0.2e-3}, {1e-3, 0.5e-3}, {1e-3, 2e-3}, {0, 3e-3}});
   validate(dimple, "dimple");
   EXPECT_NEAR(dimple.surface_z(0.7e-3), 0.2e-3 + 0.3e-3 / 4, 1e-17);
 }
@@ -306,9 +299,7 @@ struct Star
 
 RC_GTEST_PROP(Particle, RandomBodies, ())
 {
-  const auto number = [](double least, double most) {
-    return least + (most - least) * *rc::gen::inRange(0, 1000001) * 1e-6;
-  };
+  const auto number = [](double least, double most) { return least + (most - least) * *rc::gen::inRange(0, 1000001) * 1e-6; };
   const int n = *rc::gen::inRange(3, 80);
   Star star{number(0.4, 1), {}};
   for (int k = 0; k <= n; ++k) {
@@ -339,11 +330,7 @@ RC_GTEST_PROP(Particle, RandomBodies, ())
     RC_ASSERT((depth > 0) == inside);
     const double from_pore = std::hypot(r - pore.r, z - pore.z);
     if (std::abs(from_pore - pore.radius) < 1e-12) continue;
-    const int expected = !inside                   ? -1
-                         : from_pore < pore.radius ? -1
-                         : depth < first           ? 1
-                         : depth < first + second  ? 2
-                                                   : 0;
+    const int expected = !inside ? -1 : from_pore < pore.radius ? -1 : depth < first ? 1 : depth < first + second ? 2 : 0;
     RC_ASSERT(p.material_at(r, z) == expected);
   }
 }
@@ -413,43 +400,32 @@ TEST(Particle, RefusesWithASentence)
       {bare, "here: the particle has no material"},
       {body(1, {{0, 0}, {0, 2}}), "here: the profile encloses no body: found 2 points"},
       {with(1, {nan, 0.5}), "here: point 2 of the profile is not finite"},
-      {with(1, {-1, 0.5}),
-       "here: point 2 of the profile lies on the other side of the axis: found (-1, 0.5) m"},
-      {with(1, {1, -0.5}),
-       "here: point 2 of the profile lies below the contact pole, which must be the lowest"},
+      {with(1, {-1, 0.5}), "here: point 2 of the profile lies on the other side of the axis: found (-1, 0.5) m"},
+      {with(1, {1, -0.5}), "here: point 2 of the profile lies below the contact pole, which must be the lowest"},
       {with(1, {1, 1.5}), "here: point 3 of the profile repeats the one before"},
       {with(1, {0, 0.5}), "here: point 2 of the profile lies on the axis, which only the two ends may"},
       {with(0, {0, 0.1}), "here: the profile must start at the contact pole: found (0, 0.1) m"},
       {with(3, {0.1, 2}), "here: the profile must end on the axis, at the far pole: found (0.1, 2) m"},
-      {body(1, {{0, 0}, {1, 1}, {1, 0.5}, {0.3, 1.5}, {0, 2}}),
-       "here: the profile crosses or touches itself"},
-      {body(1, {{0, 0}, {0.5, 0.5}, {1, 0.2}, {1, 1}, {0.5, 0.5}, {0, 2}}),
-       "here: the profile crosses or touches"},
+      {body(1, {{0, 0}, {1, 1}, {1, 0.5}, {0.3, 1.5}, {0, 2}}), "here: the profile crosses or touches itself"},
+      {body(1, {{0, 0}, {0.5, 0.5}, {1, 0.2}, {1, 1}, {0.5, 0.5}, {0, 2}}), "here: the profile crosses or touches"},
       {body(1, {{0, 0}, {1, 1}, {0.5, 0.5}, {0, 2}}), "here: the profile crosses or touches itself"},
-      {body(1, {{0, 0}, {1, 50}, {0, 101}}),
-       "here: the body is too flat or too slender: its height: found 101 m"},
+      {body(1, {{0, 0}, {1, 50}, {0, 101}}), "here: the body is too flat or too slender: its height: found 101 m"},
       {body(1, {{0, 0}, {1, 4e-3}, {0, 9e-3}}), "here: the body is too flat or too slender"},
       {body(1.01, good), "here: 'radius' is not the profile's largest distance from the axis: found 1.01 m"},
       {layers({{0, 1}}), "here: 'thickness' of layer 1 is out of range: found 0 m, allowed is over 0"},
       {layers({{0.1, 1}, {nan, 1}}), "here: 'thickness' of layer 2 is out of range"},
-      {layers({{0.1, 3}}),
-       "here: layer 1 has a material that the particle does not: found 3, allowed is 0 to 2"},
+      {layers({{0.1, 3}}), "here: layer 1 has a material that the particle does not: found 3, allowed is 0 to 2"},
       {layers({{0.1, -1}}), "here: layer 1 has a material that the particle does not: found -1"},
       {layers({{0.5, 1}, {0.5, 2}}), "here: the layers leave no core"},
       {inclusion({0, 1, 0, 0}, sphere), "here: 'radius' of inclusion 2 is out of range"},
       {inclusion({-0.1, 1, 0.1, 0}, sphere), "here: the centre of inclusion 2 is out of range"},
       {inclusion({0.1, nan, 0.1, 0}, sphere), "here: the centre of inclusion 2 is out of range"},
-      {inclusion({0.1, 1, 0.11, 0}, sphere),
-       "here: the ring that is inclusion 2 overlaps itself on the axis"},
-      {inclusion({0, 1, 0.1, 3}, sphere),
-       "here: inclusion 2 has a material that the particle does not: found 3"},
-      {inclusion({0, 1, 0.1, -2}, sphere),
-       "here: inclusion 2 has a material that the particle does not: found -2"},
+      {inclusion({0.1, 1, 0.11, 0}, sphere), "here: the ring that is inclusion 2 overlaps itself on the axis"},
+      {inclusion({0, 1, 0.1, 3}, sphere), "here: inclusion 2 has a material that the particle does not: found 3"},
+      {inclusion({0, 1, 0.1, -2}, sphere), "here: inclusion 2 has a material that the particle does not: found -2"},
       {inclusion({0, 2.5, 0.1, -1}, sphere), "here: inclusion 2 has its centre outside the body"},
-      {inclusion({0, 0.25, 0.25, -1}, sphere),
-       "here: inclusion 2 reaches the surface: its radius: found 0.25 m"},
-      {inclusion({0.8, 1, 0.2, -1}, profile),
-       "here: inclusion 2 reaches the surface: its radius: found 0.2 m"},
+      {inclusion({0, 0.25, 0.25, -1}, sphere), "here: inclusion 2 reaches the surface: its radius: found 0.25 m"},
+      {inclusion({0.8, 1, 0.2, -1}, profile), "here: inclusion 2 reaches the surface: its radius: found 0.2 m"},
   };
   for (const auto& [particle, sentence] : cases) {
     const std::string found = sentence_of([&] { validate(particle, "here"); });
@@ -470,18 +446,13 @@ TEST(Particle, ShapesRefuseWhatDoesNotFit)
   begins([] { conical_tip(1, 30, 1, "p"); }, "p: 'tip_radius' must be smaller than the body: found 1 m");
   begins([] { tablet(1, 1, 0.9, 0.1, "p"); }, "p: 'cap_radius' does not fit the band: found 0.9 m");
   begins([] { tablet(1, 1, 2, 1, "p"); }, "p: 'edge_radius' must be smaller than the body: found 1 m");
-  begins([] { tablet(1, 0.1, 2, 0.1, "p"); },
-         "p: 'height' is too small for the two caps and edges: found 0.1 m");
+  begins([] { tablet(1, 0.1, 2, 0.1, "p"); }, "p: 'height' is too small for the two caps and edges: found 0.1 m");
   begins([] { tablet(1, 1, 2, 1e-5, "p"); }, "p: 'edge_radius' is too small to be resolved: found 1e-05 m");
   begins([] { conical_tip(1, 30, 1e-5, "p"); }, "p: 'tip_radius' is too small to be resolved");
   begins([] { flattened_sphere(1, 1e-5, 0.1, "p"); }, "p: 'flat_radius' is too small to be resolved");
   begins([] { flattened_sphere(1, 0.1, 1e-5, "p"); }, "p: 'fillet' is too small to be resolved");
   begins([] { outline({{0, 0}, {NAN, 1}, {0, 2}}, "p"); }, "p: a point is not finite: found [nan, 1] m");
-  begins(
-      [] {
-        outline({{0, 0}, {0, 1}, {0, 2}}, "p");
-      },
-      "p: the points enclose no body: none has an r over 0");
+  begins([] { outline({{0, 0}, {0, 1}, {0, 2}}, "p"); }, "p: the points enclose no body: none has an r over 0");
   begins([] { outline({{0, 0}, {1, 1}}, "p"); }, "p: the points enclose no body: found 2 points");
   begins([] { outline({{0.1, 0}, {1, 1}, {0, 2}}, "p"); }, "p: the first point must be the contact pole");
   begins([] { outline({{0, 0}, {1, 1}, {0.1, 2}}, "p"); }, "p: the last point must lie on the axis");

@@ -49,12 +49,8 @@ const std::vector<Case>& hardening_cases()
       {"swift",
        {"swift", {{"strength", {yield / std::pow(0.004, 0.25)}}, {"exponent", {0.25}}, {"offset", {0.004}}}},
        [](double e) { return yield * std::pow(1 + e / 0.004, 0.25); }},
-      {"voce",
-       {"voce", {{"saturation_stress", {0.025}}, {"strain", {0.07}}}},
-       [](double e) { return 0.025 - 0.015 * std::exp(-e / 0.07); }},
-      {"johnson-cook",
-       {"johnson-cook", {{"strength", {0.013}}, {"exponent", {0.3}}}},
-       [](double e) { return yield + 0.013 * std::pow(e, 0.3); }},
+      {"voce", {"voce", {{"saturation_stress", {0.025}}, {"strain", {0.07}}}}, [](double e) { return 0.025 - 0.015 * std::exp(-e / 0.07); }},
+      {"johnson-cook", {"johnson-cook", {{"strength", {0.013}}, {"exponent", {0.3}}}}, [](double e) { return yield + 0.013 * std::pow(e, 0.3); }},
       {"tabulated",
        {"tabulated", {{"strain", {0, 0.02, 0.1, 0.5, 1.1}}, {"stress", {yield, 0.013, 0.016, 0.02, 0.021}}}},
        [](double e) {
@@ -76,15 +72,14 @@ struct RateCase
 
 const std::vector<RateCase>& rate_cases()
 {
-  static const std::vector<RateCase> cases{
-      {"johnson-cook",
-       {"johnson-cook", {{"coefficient", {0.05}}, {"reference_rate", {1e-4}}}},
-       [](double r) { return 1 + 0.05 * std::log(std::max(1.0, r / 1e-4)); },
-       [](double g) { return 1e-4 * std::exp((g - 1) / 0.05); }},
-      {"cowper-symonds",
-       {"cowper-symonds", {{"reference_rate", {0.02}}, {"exponent", {5}}}},
-       [](double r) { return 1 + std::pow(r / 0.02, 0.2); },
-       [](double g) { return 0.02 * std::pow(g - 1, 5); }}};
+  static const std::vector<RateCase> cases{{"johnson-cook",
+                                            {"johnson-cook", {{"coefficient", {0.05}}, {"reference_rate", {1e-4}}}},
+                                            [](double r) { return 1 + 0.05 * std::log(std::max(1.0, r / 1e-4)); },
+                                            [](double g) { return 1e-4 * std::exp((g - 1) / 0.05); }},
+                                           {"cowper-symonds",
+                                            {"cowper-symonds", {{"reference_rate", {0.02}}, {"exponent", {5}}}},
+                                            [](double r) { return 1 + std::pow(r / 0.02, 0.2); },
+                                            [](double g) { return 0.02 * std::pow(g - 1, 5); }}};
   return cases;
 }
 
@@ -137,8 +132,7 @@ void compress(Body& b, double t, double dt)
 double root(const std::function<double(double)>& f, double low, double high)
 {
   std::uintmax_t iterations = 200;
-  const auto r = boost::math::tools::toms748_solve(f, low, high,
-                                                   boost::math::tools::eps_tolerance<double>(52), iterations);
+  const auto r = boost::math::tools::toms748_solve(f, low, high, boost::math::tools::eps_tolerance<double>(52), iterations);
   return 0.5 * (r.first + r.second);
 }
 
@@ -184,8 +178,7 @@ TEST(J2, UnloadingIsElastic)
 TEST(FlowLaws, YieldsWhereTheLawStarts)
 {
   const double low = 0.9992 * yield, between = 0.9996 * yield;
-  const FlowLaw swift{
-      "swift", {{"strength", {low / std::pow(0.004, 0.25)}}, {"exponent", {0.25}}, {"offset", {0.004}}}};
+  const FlowLaw swift{"swift", {{"strength", {low / std::pow(0.004, 0.25)}}, {"exponent", {0.25}}, {"offset", {0.004}}}};
   Body b = ring(material(swift));
   compress(b, between / (3 * shear), 1);
   const double slope = 0.25 * low / 0.004;
@@ -204,9 +197,7 @@ TEST(FlowLaws, HardeningAtLargeStrain)
       for (int k = 1; k <= steps; ++k) {
         const double t = 1.5 * k / steps;
         compress(b, t, 0);
-        const double ep = 3 * shear * t <= yield
-                              ? 0
-                              : root([&](double e) { return c.stress(e) - 3 * shear * (t - e); }, 0, t);
+        const double ep = 3 * shear * t <= yield ? 0 : root([&](double e) { return c.stress(e) - 3 * shear * (t - e); }, 0, t);
         // 2400 steps, each rounding strains of order 10 in b
         ASSERT_NEAR(b.state.plastic_strain_p[0], ep, 1e-10) << c.name << " at " << t;
         if (k % (steps / 8) == 0) {
@@ -219,8 +210,8 @@ TEST(FlowLaws, HardeningAtLargeStrain)
       // converge: its error is that of the trapezium rule, largest where the law starts steeply (ep^1.3: 1e-3
       // of a step).
       EXPECT_NEAR(b.state.plastic_work_p[0] / b.reference().volume_p[0], work, 1e-10) << c.name;
-      const double integral = boost::math::quadrature::gauss_kronrod<double, 61>::integrate(
-          [&](double s) { return c.stress(s * s * s) * 3 * s * s; }, 0.0, std::cbrt(last_strain), 12, 1e-12);
+      const double integral = boost::math::quadrature::gauss_kronrod<double, 61>::integrate([&](double s) { return c.stress(s * s * s) * 3 * s * s; }, 0.0,
+                                                                                            std::cbrt(last_strain), 12, 1e-12);
       EXPECT_NEAR(work / integral, 1, 600.0 / steps * 3e-4) << c.name;
     }
 }
@@ -258,12 +249,9 @@ TEST(FlowLaws, RateDependenceUnderConstantRate)
           for (int k = 1; k <= steps; ++k) {
             const double t = last * k / steps;
             compress(b, t, dt);
-            const auto balance = [&](double e) {
-              return c.stress(e) * r.factor((e - ep) / dt) - 3 * shear * (t - e);
-            };
+            const auto balance = [&](double e) { return c.stress(e) * r.factor((e - ep) / dt) - 3 * shear * (t - e); };
             if (balance(ep) < 0) ep = root(balance, ep, t);
-            ASSERT_NEAR(b.state.plastic_strain_p[0], ep, 1e-10)
-                << c.name << " " << r.name << " at " << t;  // as above
+            ASSERT_NEAR(b.state.plastic_strain_p[0], ep, 1e-10) << c.name << " " << r.name << " at " << t;  // as above
           }
           ends.push_back(ep);
         }
@@ -280,13 +268,11 @@ TEST(FlowLaws, RateDependenceUnderConstantRate)
           const double k3 = flow_rate(t + d / 2, exact + d / 2 * k2), k4 = flow_rate(t + d, exact + d * k3);
           exact += d / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
         }
-        const double error[] = {std::abs(ends[0] - exact), std::abs(ends[1] - exact),
-                                std::abs(ends[2] - exact)};
+        const double error[] = {std::abs(ends[0] - exact), std::abs(ends[1] - exact), std::abs(ends[2] - exact)};
         // Half the step, half the error; where the path's end is straight (ep'' = 0) all of it is rounding.
         EXPECT_LT(error[1], 0.55 * error[0] + 1e-12) << c.name << " " << r.name;
         EXPECT_LT(error[2], 0.55 * error[1] + 1e-12) << c.name << " " << r.name;
-        EXPECT_LT(error[2], 1e-7) << c.name << " "
-                                  << r.name;  // backward Euler: dt ep''/2 over the relaxation; 2e-8 seen
+        EXPECT_LT(error[2], 1e-7) << c.name << " " << r.name;  // backward Euler: dt ep''/2 over the relaxation; 2e-8 seen
       }
 }
 
@@ -334,8 +320,7 @@ TEST(FlowLaws, NewtonResidual)
     return Linear::from(y, v);
   };
   const auto swift = [](double y, auto u) {
-    const double n = 0.05 + 0.95 * u(), offset = std::pow(10, -6 + 5 * u()),
-                 v[] = {y / std::pow(offset, n), n, offset};
+    const double n = 0.05 + 0.95 * u(), offset = std::pow(10, -6 + 5 * u()), v[] = {y / std::pow(offset, n), n, offset};
     return Swift::from(y, v);
   };
   const auto voce = [](double y, auto u) {
@@ -368,16 +353,14 @@ TEST(FlowLaws, NewtonResidual)
   };
   const auto check = [&](const char* name, auto hardening) {
     std::pair<double, double> tangent{0, 0};
-    const double left[] = {worst_residual(hardening, none, &tangent), worst_residual(hardening, jc_rate),
-                           worst_residual(hardening, cs_rate)};
+    const double left[] = {worst_residual(hardening, none, &tangent), worst_residual(hardening, jc_rate), worst_residual(hardening, cs_rate)};
     std::printf(
         "largest residual over trial stress, %-12s rate-independent %.1e, Johnson-Cook %.1e, Cowper-Symonds "
         "%.1e; "
         "from the tangent %.1e in %.0f %%\n",
         name, left[0], left[1], left[2], tangent.first, 100 * tangent.second);
-    for (const double l : {left[0], left[1], left[2], tangent.first})
-      EXPECT_LT(l, 1e-10) << name;           // the accuracy that HardeningAtLargeStrain requires
-    EXPECT_GT(tangent.second, 0.2) << name;  // else it would be of no use
+    for (const double l : {left[0], left[1], left[2], tangent.first}) EXPECT_LT(l, 1e-10) << name;  // the accuracy that HardeningAtLargeStrain requires
+    EXPECT_GT(tangent.second, 0.2) << name;                                                         // else it would be of no use
   };
   check("linear", linear);
   check("swift", swift);
@@ -394,9 +377,7 @@ RunResult collide(const Particle& sphere)
   options.resolution = 8;
   options.shifted_grids = 1;
   options.samples = 200;
-  return impact(sphere,
-                {impact_speed * std::sqrt(sphere.materials[0].e_star() / sphere.materials[0].density)}, {},
-                options);
+  return impact(sphere, {impact_speed * std::sqrt(sphere.materials[0].e_star() / sphere.materials[0].density)}, {}, options);
 }
 
 /// Two spheres of different size, modulus and density with the same E*/Y, nu, V/c* and the same rates times
@@ -437,9 +418,8 @@ TEST(FlowLaws, RateDependentSimilarity)
     plain.materials[0].hardening = plain.materials[0].rate = {};
     const double plain_error = collide(plain).summary.energy_error;
     EXPECT_LT(a.summary.energy_error, 2 * plain_error + 1e-4) << r.name;
-    std::printf("%s: e %.4f, at ten times the radius %.4f; energy error %.1e (rate-independent, perfect %.1e)\n",
-                r.name, a.summary.restitution, larger.summary.restitution, a.summary.energy_error,
-                plain_error);
+    std::printf("%s: e %.4f, at ten times the radius %.4f; energy error %.1e (rate-independent, perfect %.1e)\n", r.name, a.summary.restitution,
+                larger.summary.restitution, a.summary.energy_error, plain_error);
   }
 }
 
@@ -448,8 +428,7 @@ TEST(FlowLaws, RateDependentSimilarity)
 TEST(FlowLaws, ImpactAgreesWithClosedForm)
 {
   Particle linear = Particle::sphere(1, material({"linear", {{"modulus", {0.05}}}}));
-  Particle table =
-      Particle::sphere(1, material({"tabulated", {{"strain", {0, 10}}, {"stress", {yield, yield + 0.5}}}}));
+  Particle table = Particle::sphere(1, material({"tabulated", {{"strain", {0, 10}}, {"stress", {yield, yield + 0.5}}}}));
   const RunSummary a = collide(linear).summary, b = collide(table).summary;
   // local solutions agree to 1e-15; what grows from it over 1e4 steps
   EXPECT_NEAR(b.restitution / a.restitution, 1, 1e-6);
@@ -466,8 +445,7 @@ TEST(FlowLaws, ScaledStrains)
     for (const Case& c : hardening_cases()) {
       const Material scaled = with_strains_scaled(material(c.hardening), by);
       validate_flow(scaled, "test");
-      for (const double ep : {0.0, 1e-6, 1e-3, 0.05, 0.7})
-        EXPECT_NEAR(flow_stress(scaled, by * ep) / c.stress(ep), 1, 1e-12) << c.name << " " << ep;
+      for (const double ep : {0.0, 1e-6, 1e-3, 0.05, 0.7}) EXPECT_NEAR(flow_stress(scaled, by * ep) / c.stress(ep), 1, 1e-12) << c.name << " " << ep;
     }
   }
 }
@@ -498,18 +476,13 @@ TEST(FlowLaws, Refusals)
     }
     return std::string("accepted");
   };
-  const auto contains = [](const std::string& text, const char* word) {
-    return text.find(word) != std::string::npos;
-  };
+  const auto contains = [](const std::string& text, const char* word) { return text.find(word) != std::string::npos; };
   EXPECT_PRED2(contains, refused({"swyft", {}}), "did you mean 'swift'");
-  EXPECT_PRED2(contains, refused({"swift", {{"strength", {1}}, {"exponent", {0.2}}, {"offset", {0.01}}}}),
-               "must be 'yield_stress' to 0.1 %");
+  EXPECT_PRED2(contains, refused({"swift", {{"strength", {1}}, {"exponent", {0.2}}, {"offset", {0.01}}}}), "must be 'yield_stress' to 0.1 %");
   EXPECT_PRED2(contains, refused({"swift", {{"strength", {1}}, {"exponent", {0.2}}}}), "needs 'offset'");
-  EXPECT_PRED2(contains, refused({"voce", {{"saturation_stress", {0.005}}, {"strain", {0.1}}}}),
-               "below yield_stress");
+  EXPECT_PRED2(contains, refused({"voce", {{"saturation_stress", {0.005}}, {"strain", {0.1}}}}), "below yield_stress");
   EXPECT_PRED2(contains, refused({"johnson-cook", {{"strength", {1}}, {"exponent", {1.5}}}}), "0.05 to 1");
-  EXPECT_PRED2(contains, refused({"tabulated", {{"strain", {0, 0.1, 0.1}}, {"stress", {yield, 0.02, 0.03}}}}),
-               "must ascend");
+  EXPECT_PRED2(contains, refused({"tabulated", {{"strain", {0, 0.1, 0.1}}, {"stress", {yield, 0.02, 0.03}}}}), "must ascend");
   EXPECT_PRED2(contains, refused({"tabulated", {{"strain", {0, 0.1}}, {"stress", {yield, 0.005}}}}), "falls");
   EXPECT_PRED2(contains, refused({}, {"cowper-symond", {}}), "did you mean 'cowper-symonds'");
 }

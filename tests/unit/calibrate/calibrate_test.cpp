@@ -5,21 +5,21 @@
 #include <cmath>
 #include <span>
 
+#include "atlas/composed_law.hpp"
 #include "base/error.hpp"
 #include "calibrate/calibrate_by_runs.hpp"
-#include "characterise/build/slow_law.hpp"
 #include "calibrate/cycles.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/noise.hpp"
-#include "atlas/composed_law.hpp"
+#include "characterise/build/slow_law.hpp"
 #include "own_atlas.hpp"
 
 namespace granulaw::calibrate_test {
 
-using tests::atlas;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using tests::atlas;
 
 LawMaterial stone()
 {
@@ -34,8 +34,7 @@ Measurement drops(const LawMaterial& m, const std::vector<double>& speeds)
   Measurement measured;
   measured.source = "drops.csv";
   measured.radius = radius;
-  for (const double v : speeds)
-    measured.data.push_back({v, 1, 0, static_cast<int>(measured.data.size()) + 2});
+  for (const double v : speeds) measured.data.push_back({v, 1, 0, static_cast<int>(measured.data.size()) + 2});
   const SphereLaws laws(atlas(), MaterialRatios::of(m));
   const std::vector<double> e = measured.kind->predict(measured, {m, laws}).values;
   for (std::size_t k = 0; k < e.size(); ++k) measured.data[k].y = e[k], measured.data[k].sd = 0.01 * e[k];
@@ -53,8 +52,7 @@ Measurement curve(const LawMaterial& m, double depth, double offset)
   for (int k = 39; k > 20; --k) measured.data.push_back({2 * depth * radius * k / 40 + offset, 0.5, 0, 80 - k});
   const SphereLaws laws(atlas(), MaterialRatios::of(m));
   const std::vector<double> force = measured.kind->predict(measured, {m, laws, {offset, 0}}).values;
-  for (std::size_t k = 0; k < force.size(); ++k)
-    measured.data[k].y = force[k], measured.data[k].sd = 0.01 * force[k] + 1e-3 * force[39];
+  for (std::size_t k = 0; k < force.size(); ++k) measured.data[k].y = force[k], measured.data[k].sd = 0.01 * force[k] + 1e-3 * force[39];
   return measured;
 }
 
@@ -111,8 +109,7 @@ TEST(Calibrate, ACurveGivesBackModulusYieldStressAndOffset)
 }
 
 /// Measurement with an elastic indenter, by the composed law itself.
-Measurement indentation(const LawMaterial& m, const LawMaterial& indenter, double indenter_radius,
-                        double depth)
+Measurement indentation(const LawMaterial& m, const LawMaterial& indenter, double indenter_radius, double depth)
 {
   Measurement measured;
   measured.kind = &kind_named("sphere", "test");
@@ -121,8 +118,7 @@ Measurement indentation(const LawMaterial& m, const LawMaterial& indenter, doubl
   measured.indenter_radius = indenter_radius;
   measured.counterpart = indenter;
   measured.fit_offset = true;
-  const TwoBodyLaw law = compose_law(atlas(), PairBody(atlas(), m), PairBody(atlas(), indenter),
-                                     indenter_radius / radius, {.depth = 0.2, .fastest = 0});
+  const TwoBodyLaw law = compose_law(atlas(), PairBody(atlas(), m), PairBody(atlas(), indenter), indenter_radius / radius, {.depth = 0.2, .fastest = 0});
   const PairMapping mapping = PairMapping::deformable_partner(m.e_star(), indenter.e_star());
   const double r_eff = measured.effective_radius(), deepest = depth * r_eff;
   const auto add = [&](double d, double delta_max) {
@@ -173,9 +169,7 @@ Measurement cycles(double depth, std::vector<std::pair<double, double>> tops_and
   measured.fit_offset = true;
   const SphereLaws laws(atlas(), MaterialRatios::of(stone()));
   const double unit = 4.0 / 3.0 * stone().e_star() * radius * radius;
-  const auto add = [&](double x, double force) {
-    measured.data.push_back({x * radius, unit * force, 0, static_cast<int>(measured.data.size()) + 2});
-  };
+  const auto add = [&](double x, double force) { measured.data.push_back({x * radius, unit * force, 0, static_cast<int>(measured.data.size()) + 2}); };
   double reached = 0;
   tops_and_shares.emplace_back(depth, 0.1);
   for (const auto& [top, share] : tops_and_shares) {
@@ -197,9 +191,7 @@ Measurement cycles(double depth, std::vector<std::pair<double, double>> tops_and
 
 TEST(Calibrate, PartialUnloadingsAreUsed)
 {
-  const auto fit_of = [](const Measurement& m) {
-    return calibrate(CalibrationProblem(atlas(), request_for(m, {Parameter::youngs_modulus, Parameter::yield_stress})));
-  };
+  const auto fit_of = [](const Measurement& m) { return calibrate(CalibrationProblem(atlas(), request_for(m, {Parameter::youngs_modulus, Parameter::yield_stress}))); };
   const auto width = [](const Calibration& c) {
     const Interval& i = c.parameters[0].profile.within95;
     return std::log(i.high / i.low);
@@ -220,8 +212,7 @@ TEST(Calibrate, PartialUnloadingsAreUsed)
   EXPECT_EQ(r.measurements[0].data.size(), cycle.data.size());
   Measurement& stiff = r.measurements[0];
   const Unloading u = stiff.unloadings().front();
-  for (Datum& d : std::span(stiff.data).subspan(u.first, u.last - u.first))
-    d.x = stiff.data[u.first - 1].x - 0.4 * (stiff.data[u.first - 1].x - d.x);
+  for (Datum& d : std::span(stiff.data).subspan(u.first, u.last - u.first)) d.x = stiff.data[u.first - 1].x - 0.4 * (stiff.data[u.first - 1].x - d.x);
   set_cycles_aside(atlas(), r);
   ASSERT_EQ(stiff.set_aside.size(), 1u);
   EXPECT_THAT(stiff.set_aside[0], HasSubstr("the partial unloading from 2e-05 m"));
@@ -236,8 +227,7 @@ TEST(Calibrate, PartialUnloadingsAreUsed)
 TEST(Calibrate, HardeningOfThirtyYieldStressesIsFound)
 {
   const LawMaterial hard{"hard", 2000, 18.6e9, 0.14, 11e6, 340e6};
-  CalibrationRequest r = request_for(
-      curve(hard, 0.11, 3e-6), {Parameter::youngs_modulus, Parameter::yield_stress, Parameter::hardening_modulus});
+  CalibrationRequest r = request_for(curve(hard, 0.11, 3e-6), {Parameter::youngs_modulus, Parameter::yield_stress, Parameter::hardening_modulus});
   r.known.poisson_ratio = 0.14;
   const Calibration c = calibrate(CalibrationProblem(atlas(), r));
   // the same model made the data; three parameters go nearly together
@@ -325,10 +315,9 @@ TEST(CalibrateSlow, ALawByRunsCorrectsTheFit)
   for (std::size_t k = 0; k < e.size(); ++k) m.data[k].y = e[k], m.data[k].sd = 0.01 * e[k];
   CalibrationProblem problem(atlas(), request_for_voce(m));
   ThreadFarm farm(2);
-  const CalibrationByRuns fit = calibrate_by_runs(
-      problem, [&](const std::string& name, const Material& material, double depth, const Progress& progress) {
-        return slow_law_by_runs(name, material, depth, atlas(), farm, progress);
-      });
+  const CalibrationByRuns fit = calibrate_by_runs(problem, [&](const std::string& name, const Material& material, double depth, const Progress& progress) {
+    return slow_law_by_runs(name, material, depth, atlas(), farm, progress);
+  });
   EXPECT_GE(fit.laws, 1);
   EXPECT_LT(fit.miss_force, close_enough);
   EXPECT_LT(fit.miss_restitution, close_enough);
@@ -338,8 +327,7 @@ TEST(CalibrateSlow, ALawByRunsCorrectsTheFit)
 
 TEST(Calibrate, APriorNarrows)
 {
-  CalibrationRequest plain =
-      request_for(drops(stone(), {0.2, 0.5, 1, 2, 4}), {Parameter::youngs_modulus, Parameter::yield_stress});
+  CalibrationRequest plain = request_for(drops(stone(), {0.2, 0.5, 1, 2, 4}), {Parameter::youngs_modulus, Parameter::yield_stress});
   CalibrationRequest informed = plain;
   informed.priors = {{Parameter::youngs_modulus, {9.5e9, 10.5e9}}};
   const auto width = [](const CalibrationRequest& r) {
@@ -372,8 +360,7 @@ TEST(Calibrate, ARateIsNamedWhereImpactsAreStrongerThanAPress)
 {
   LawMaterial fast = stone();
   fast.yield_stress *= 1.25;
-  CalibrationRequest r = request_for(drops(fast, {0.2, 0.4, 0.8, 1.6, 3.2, 6}),
-                                     {Parameter::yield_stress, Parameter::hardening_modulus});
+  CalibrationRequest r = request_for(drops(fast, {0.2, 0.4, 0.8, 1.6, 3.2, 6}), {Parameter::yield_stress, Parameter::hardening_modulus});
   r.measurements.push_back(curve(stone(), 0.05, 0));
   const auto names = [](const CalibrationRequest& request) {
     std::string all;
@@ -389,9 +376,7 @@ TEST(Calibrate, ImpactsAloneDoNotTellHardeningFromARate)
 {
   LawMaterial hard = stone();
   hard.hardening_modulus = 600e6;
-  const CalibrationProblem problem(atlas(),
-                                   request_for(drops(hard, {0.2, 0.5, 1, 2, 4, 8}),
-                                               {Parameter::yield_stress, Parameter::hardening_modulus}));
+  const CalibrationProblem problem(atlas(), request_for(drops(hard, {0.2, 0.5, 1, 2, 4, 8}), {Parameter::yield_stress, Parameter::hardening_modulus}));
   EXPECT_THAT(verdict(problem, calibrate(problem)), HasSubstr("do not distinguish hardening from"));
 }
 
@@ -401,9 +386,7 @@ TEST(Calibrate, TheEnsembleScattersAsTheIntervalSays)
   const std::vector<CandidateMaterial> drawn = draw_materials(problem, c, 100, 7);
   ASSERT_EQ(drawn.size(), 100u);
   int within = 0;
-  for (const CandidateMaterial& m : drawn)
-    within += m.yield_stress >= c.parameters[0].profile.within95.low &&
-              m.yield_stress <= c.parameters[0].profile.within95.high;
+  for (const CandidateMaterial& m : drawn) within += m.yield_stress >= c.parameters[0].profile.within95.low && m.yield_stress <= c.parameters[0].profile.within95.high;
   EXPECT_GE(within, 85);  // 95 expected, sd 2.2 of independent draws
   EXPECT_EQ(drawn[3].yield_stress, draw_materials(problem, c, 4, 7)[3].yield_stress);
 }
