@@ -1,4 +1,5 @@
 #include "characterise/body/law_body.hpp"
+#include "characterise/check/check_law.hpp"
 #include "characterise/file/make_law_file.hpp"
 
 #include <set>
@@ -115,6 +116,13 @@ TEST_F(MakeLawFile, ByRunsThatTheFarmCounts)
   EXPECT_EQ(again.count().made, 0);
   EXPECT_EQ(same.law.bodies.at("powder").curve.table().force.value,
             made.law.bodies.at("powder").curve.table().force.value);
+}
+
+TEST(CheckLaw, ANegativeNumberOfImpactsIsRefused)
+{
+  LawCheckRequest request;
+  request.impacts = -1;
+  EXPECT_THROW(check_law({}, request), Error);
 }
 
 TEST_F(MakeLawFile, WhatProgressThrowsStopsIt)

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <span>
 
 #include "atlas/composed_law.hpp"
@@ -305,6 +307,27 @@ TEST(Calibrate, WhatCannotBeFittedIsRefused)
   Measurement deep = indentation(stone(), {"hard", 4000, 60e9, 0.2}, 0.5e-3, 0.05);
   for (Datum& d : deep.data) d.x *= 20;
   EXPECT_THROW(CalibrationProblem(atlas(), request_for(deep, {Parameter::yield_stress})), Error);
+}
+
+/// Two atlases at one address.
+TEST(AtlasErrors, AreThoseOfTheirAtlas)
+{
+  std::vector<AtlasCheck> checks = atlas().checks();
+  for (AtlasCheck& check : checks) check.error_restitution *= 2;
+  std::optional<Atlas> place(atlas());
+  const double own = errors_of(*place, 100).restitution;
+  place.emplace(atlas().grid(), atlas().nodes(), atlas().elastic_spheres(), checks, atlas().midplane());
+  EXPECT_NEAR(errors_of(*place, 100).restitution / own, 2, 1e-12);
+}
+
+TEST(SphereLawsCache, LawsThatAreHeldStay)
+{
+  SphereLawsCache laws(atlas());
+  const std::shared_ptr<const SphereLaws> held = laws.of(voce());
+  const double onset = held->onset();
+  laws.set_departure({});
+  EXPECT_EQ(held->onset(), onset);
+  EXPECT_NE(laws.of(voce()), held);
 }
 
 TEST(CalibrateSlow, ALawByRunsCorrectsTheFit)
