@@ -89,10 +89,9 @@ class TestStops(Deck):
 
     def test_nan_and_runaway(self):
         nan = "variable bad atom 1e308*1e308-1e308*1e308\n"
-        for ranks in (1, 2):
-            for who in ("first", "last"):
-                self.stopped(self.two_spheres(f"{nan}run 50\nvelocity {who} set v_bad 0 0\nrun 1000\n"), "is not a number", ranks)
-                self.stopped(self.two_spheres(f"run 50\nvelocity {who} set 1e5 0 0\nrun 1000\n"), "has run away", ranks)
+        for ranks, who, other in ((1, "last", "last"), (2, "first", "last")):
+            self.stopped(self.two_spheres(f"{nan}run 50\nvelocity {who} set v_bad 0 0\nrun 1000\n"), "is not a number", ranks)
+            self.stopped(self.two_spheres(f"run 50\nvelocity {other} set 1e5 0 0\nrun 1000\n"), "has run away", ranks)
             # becomes NaN while running: a force that is none
             self.stopped(self.two_spheres(f"{nan}run 50\nfix f last addforce v_bad 0 0\nrun 1000\n"), "is not a number", ranks)
 
