@@ -1,4 +1,4 @@
-"""test_explorer.py PAGE MPM [--cases N] [--seed N] [--launcher PROGRAM] [--times]: the interactive page in Chromium against `mpm table` and `mpm law --json`.
+"""test_explorer.py PAGE MPM [--cases N] [--seed N] [--launcher PROGRAM]: the interactive page in Chromium against `mpm table` and `mpm law --json`.
 
 Bodies agree to 1e-9 (another compiler and another C library round differently). Composed pairs agree to 1e-5: there rounding decides how often
 a search goes on, and e moves by 4e-6 when E changes by one part in 1e15.
@@ -9,7 +9,6 @@ import math
 import os
 import random
 import re
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -359,25 +358,6 @@ def bed(browser, mpm, launcher, failures):
     print(f"bed: largest relative difference from mpm plan and mpm stretch {worst:.2g}")
 
 
-def times(browser):
-    """Milliseconds: to the first curve; medians of 100 changes of speed, material, and a material of a pair."""
-    script = """
-      const times = [], frame = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-      const field = document.getElementById(args[0]);
-      for (let k = 0; k < 100; ++k) {
-        field.value = String(args[1] * (1 + 0.003 * k));
-        field.dispatchEvent(new Event('change'));
-        await frame();
-        times.push(granulaw.last_change_ms);
-      }
-      return times;"""
-    first = browser.run("return granulaw.first_curve_ms")
-    wall = [statistics.median(browser.run(script, *change)) for change in (("speed", 1.0), ("yield_stress", 1e6))]
-    browser.run("document.querySelector('[value=sphere]').click(); await new Promise(requestAnimationFrame)")
-    pair = statistics.median(browser.run(script, "yield_stress", 1e6))
-    print(f"first curve {first:.0f} ms; median of 100 changes: speed {wall[0]:.0f} ms, material {wall[1]:.0f} ms, material of a pair {pair:.0f} ms")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("page", type=Path)
@@ -385,7 +365,6 @@ def main():
     parser.add_argument("--cases", type=int, default=30)
     parser.add_argument("--seed", type=int, default=55)
     parser.add_argument("--launcher", help="liggghts-mpm: it runs the deck that the page wrote")
-    parser.add_argument("--times", action="store_true")
     arguments = parser.parse_args()
     if why := missing():
         print(f"skipped: {why}")
@@ -397,12 +376,6 @@ def main():
     with Browser() as browser:
         browser.open(page)
         browser.run("await granulaw.ready")
-        if arguments.times:
-            browser.run("await new Promise((done) => setTimeout(done, 500))")
-            times(browser)
-            browser.open("about:blank")
-            browser.open(page)
-            browser.run("await granulaw.ready")
         use(browser, page, failures)
         deck_commands(browser, mpm, failures)
         if arguments.launcher:
