@@ -10,11 +10,12 @@
 
 namespace granulaw {
 
-Spline fit_spline(std::span<const SplineSample> samples, double end, int intervals, double stiffness, int order)
+Spline fit_spline(std::span<const SplineSample> samples, double end, int intervals, double stiffness,
+                  int order)
 {
   if (samples.size() < 2) fail("fit", "too few samples", std::to_string(samples.size()), "2 or more");
-  // Coefficients c_0 ... c_{intervals+2}: y(0) = (c_0 + 4 c_1 + c_2)/6 = 0 and y'(0) = (c_2 - c_0)/2h = 0 make
-  // c_0 = c_2 = -2 c_1. So the unknowns are c_2, c_3, ...
+  // Coefficients c_0 ... c_{intervals+2}: y(0) = (c_0 + 4 c_1 + c_2)/6 = 0 and y'(0) = (c_2 - c_0)/2h = 0
+  // make c_0 = c_2 = -2 c_1. So the unknowns are c_2, c_3, ...
   const double spacing = end / intervals;
   const int all = intervals + 3, unknowns = all - 2;
   const auto rows = static_cast<Eigen::Index>(samples.size()) + all - order;
@@ -31,8 +32,8 @@ Spline fit_spline(std::span<const SplineSample> samples, double end, int interva
     for (int j = 0; j < 4; ++j) {
       const double at = place - (k + j - 1);  // c_{k+j} belongs to node k + j - 1
       add(row, k + j,
-          s.weight * (boost::math::cardinal_b_spline<3>(at) +
-                      beyond * boost::math::cardinal_b_spline_prime<3>(at)));
+          s.weight *
+              (boost::math::cardinal_b_spline<3>(at) + beyond * boost::math::cardinal_b_spline_prime<3>(at)));
     }
     b(row++) = s.weight * s.value;
     mean_square += s.weight * s.weight;

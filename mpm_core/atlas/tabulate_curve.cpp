@@ -44,7 +44,8 @@ Curve fitted_curve(CurveTable table, std::optional<AxisTable> axis)
 Curve tabulate(const ContactLaw& law)
 {
   CurveTable table(law.onset(), law.end());
-  const auto nodes = table.nodes(), yielding = table.yields() ? table.yielding_nodes() : std::vector<double>{};
+  const auto nodes = table.nodes(),
+             yielding = table.yields() ? table.yielding_nodes() : std::vector<double>{};
   for (const double x : nodes) {
     const ContactLaw::Loading now = law.continued_loading(x);
     table.force.add(now.force, now.stiffness), table.radius.add(now.radius, now.radius_slope);

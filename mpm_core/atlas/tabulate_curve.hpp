@@ -1,12 +1,12 @@
 #pragma once
 
-#include "law/contact_law.hpp"
 #include "contact/curve.hpp"
+#include "law/contact_law.hpp"
 
 namespace granulaw {
 
-/// The law as a particle code asks it. Force and radius are made to rise, kept and span never to rise: no closed cycle
-/// gains energy.
+/// The law as a particle code asks it. Force and radius are made to rise, kept and span never to rise: no
+/// closed cycle gains energy.
 Curve tabulate(const ContactLaw& law);
 inline Curve tabulate(const LawShape& shape, double x_end)
 {

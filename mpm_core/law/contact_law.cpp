@@ -56,7 +56,8 @@ ContactLaw::Loading ContactLaw::loading(double x) const
 
 ContactLaw::Loading ContactLaw::continued_loading(double x) const
 {
-  const double s = std::pow(x, 0.25), ratio = elastic_.force_ratio(s), radius_ratio = elastic_.radius_ratio(s);
+  const double s = std::pow(x, 0.25), ratio = elastic_.force_ratio(s),
+               radius_ratio = elastic_.radius_ratio(s);
   double force = x * s * s * ratio, radius = s * s * radius_ratio;
   // by ln s
   double force_slope = 6 + s * elastic_.force_ratio_slope(s) / ratio,
@@ -136,7 +137,8 @@ double ContactLaw::work(double x) const
   const double spacing = q(end_) / intervals, place = q(x) / spacing;
   const auto k = std::min(static_cast<std::size_t>(place), log_work_.size() - 2);
   double c[4];
-  hermite(c, log_work_.value[k], log_work_.value[k + 1], spacing * log_work_.slope[k], spacing * log_work_.slope[k + 1]);
+  hermite(c, log_work_.value[k], log_work_.value[k + 1], spacing * log_work_.slope[k],
+          spacing * log_work_.slope[k + 1]);
   return std::exp(cubic(c, place - static_cast<double>(k)));
 }
 

@@ -7,14 +7,16 @@
 
 namespace granulaw {
 
-/// The slow law of a contact as a function of the overlap x = delta/R, without a table. Forces over 4/3 E* R^2, energies
-/// over 4/3 E* R^3, as Curve has them. Beyond its end the loading force goes on with its last stiffness, all else keeps
-/// its last value. A Curve is tabulated from it (atlas/tabulate_curve.hpp) where a particle code asks at every step.
+/// The slow law of a contact as a function of the overlap x = delta/R, without a table. Forces over 4/3 E*
+/// R^2, energies over 4/3 E* R^3, as Curve has them. Beyond its end the loading force goes on with its last
+/// stiffness, all else keeps its last value. A Curve is tabulated from it (atlas/tabulate_curve.hpp) where a
+/// particle code asks at every step.
 class ContactLaw
 {
  public:
   explicit ContactLaw(const LawShape& shape) : ContactLaw(shape, shape.end) {}
-  /// The same up to another end. That of a shape that ends before it goes on as its functions do at their end.
+  /// The same up to another end. That of a shape that ends before it goes on as its functions do at their
+  /// end.
   ContactLaw(const LawShape& shape, double end);
   /// A body that never yields.
   ContactLaw(const ElasticCorrection& elastic, double end);
@@ -46,8 +48,8 @@ class ContactLaw
   double kept(double x) const { return top(x).kept; }
   double span(double x) const { return top(x).span; }
 
-  /// Overlap at which loading has taken this work: that of an impact of so much kinetic energy, if speed changed
-  /// nothing.
+  /// Overlap at which loading has taken this work: that of an impact of so much kinetic energy, if speed
+  /// changed nothing.
   double overlap_at_work(double work) const;
 
  private:
@@ -63,8 +65,8 @@ class ContactLaw
   double last_work_ = 0;
 };
 
-/// The Hertz coefficient next to `wanted` with which the unloading from x rises and is not less stiff than loading; the
-/// work is the same with any.
+/// The Hertz coefficient next to `wanted` with which the unloading from x rises and is not less stiff than
+/// loading; the work is the same with any.
 double admissible_hertz_share(double wanted, const Curve::Top& top, double x, double stiffness);
 
 }  // namespace granulaw

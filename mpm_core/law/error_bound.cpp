@@ -46,9 +46,11 @@ std::vector<AxisCost> larger_costs(const std::vector<AxisCost>& a, const std::ve
 ErrorBound joined(const ErrorBound& a, const ErrorBound& b, double (*join)(double, double))
 {
   ErrorBound both{join(a.force, b.force), join(a.restitution, b.restitution),
-                  join(a.relative_restitution, b.relative_restitution), larger_costs(a.omitted_axis, b.omitted_axis)};
-  for (const auto part : {&ErrorBound::axis_restitution, &ErrorBound::swing_force, &ErrorBound::swing_restitution,
-                          &ErrorBound::size_force, &ErrorBound::size_restitution})
+                  join(a.relative_restitution, b.relative_restitution),
+                  larger_costs(a.omitted_axis, b.omitted_axis)};
+  for (const auto part :
+       {&ErrorBound::axis_restitution, &ErrorBound::swing_force, &ErrorBound::swing_restitution,
+        &ErrorBound::size_force, &ErrorBound::size_restitution})
     both.*part = std::max(a.*part, b.*part);
   return both;
 }
@@ -108,7 +110,10 @@ ErrorBound bound_of(const Certificate& c)
   else if (!checked)
     bound = atlas.with({c.interpolation_error, 0, c.held_out_error});
   bound = bound.with({c.solver_error_force, 0, c.solver_error_restitution});
-  if (elastic) bound.swing_force = 2.7, bound.swing_restitution = 0.35;  // the largest of 21 impacts (docs/evidence/atlas.md)
+  if (elastic) {  // the largest of 21 impacts (docs/evidence/atlas.md)
+    bound.swing_force = 2.7;
+    bound.swing_restitution = 0.35;
+  }
   return bound;
 }
 
