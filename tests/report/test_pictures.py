@@ -64,7 +64,6 @@ class TestPictures:
         content["series"] = {"time_s": [0, 1e-4, 2e-4], "kinetic_J": [0, 1e-6, 3e-6], "normal_dissipation_J": [0, 0, 1e-7],
                              "fastest_particle_m_per_s": [1, 2, 1.5]}
         (self.folder / "stats.json").write_text(json.dumps(content))
-        run_files.hertz_law(self.folder / "law.h5")
         self.tidied(contacts_part.picture_of_run(contacts_part.Run(self.folder / "stats.json", "stats.json")))
 
     def drawn(self, name, *words, told=""):

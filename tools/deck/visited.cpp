@@ -13,20 +13,19 @@ namespace {
 
 using nlohmann::json;
 
-double number_at(const json& object, std::initializer_list<const char*> keys)
+double number_at(const json& object, const char* key)
 {
-  for (const char* key : keys)
-    if (const auto at = object.find(key); at != object.end() && at->is_number()) return at->get<double>();
-  return 0;
+  const auto at = object.find(key);
+  return at != object.end() && at->is_number() ? at->get<double>() : 0;
 }
 
 Visited::Range range_of(const json& side)
 {
   Visited::Range r;
-  r.speed = number_at(side, {"impact_speed_max_m_per_s"});
-  r.overlap = number_at(side, {"overlap_over_radius_max"});
-  r.damage_number = number_at(side, {"inertia_number_max"});
-  r.met = number_at(side, {"contacts_begun"}) > 0 || r.speed > 0;
+  r.speed = number_at(side, "impact_speed_max_m_per_s");
+  r.overlap = number_at(side, "overlap_over_radius_max");
+  r.damage_number = number_at(side, "damage_number_max");
+  r.met = number_at(side, "contacts_begun") > 0 || r.speed > 0;
   return r;
 }
 
@@ -46,7 +45,7 @@ std::pair<int, int> types_of(const json& entry)
   if (const auto types = entry.find("types");
       types != entry.end() && types->is_array() && types->size() == 2 && (*types)[0].is_number_integer() && (*types)[1].is_number_integer())
     return {(*types)[0].get<int>(), (*types)[1].get<int>()};
-  return {static_cast<int>(number_at(entry, {"type_i", "i"})), static_cast<int>(number_at(entry, {"type_j", "j"}))};
+  return {0, 0};
 }
 
 bool is_wall(const json& entry)

@@ -1,11 +1,10 @@
-#include "bed.hpp"
-
 #include <optional>
 
 #include "base/error.hpp"
 #include "deck/laws_at_hand.hpp"
 #include "deck/soften.hpp"
 #include "json_output.hpp"
+#include "request.hpp"
 
 namespace granulaw {
 

@@ -1,9 +1,8 @@
-#include "drops.hpp"
-
 #include "base/error.hpp"
 #include "calibrate/calibrate.hpp"
 #include "calibrate/measurement_file.hpp"
 #include "calibration_output.hpp"
+#include "request.hpp"
 
 namespace granulaw {
 

@@ -59,4 +59,14 @@ Request request_of(const Json& json);
 double number_of(const Json& object, const char* key, const std::string& where);
 double number_or(const Json& object, const char* key, const std::string& where, double otherwise);
 
+/// Requirements of a bed of the request's bodies on a floor, by the functions of `mpm plan` and `mpm stretch`. Every contact
+/// is at most as fast as the request's speed (--speed), the bed is `height` m high (--fill-height), gravity is 9.81 m/s^2.
+/// Keys are those of the two commands' --json.
+Json bed_json(const Atlas& atlas, const Request& request, double height);
+
+/// Fits the yield stress to drop tests: the object of `mpm calibrate --json --fit yield_stress`.
+///   {"data": "velocity_m_per_s,restitution\n...", "relative_sd": of an e without a standard deviation,
+///    "material", "radius", "partner": as in a Request; the yield stress is not looked at}
+Json drops_json(const Atlas& atlas, const Json& json);
+
 }  // namespace granulaw

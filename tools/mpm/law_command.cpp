@@ -29,7 +29,7 @@ void print(const ChosenPair& c, double velocity, const StatedCollision& found)
 {
   fmt::print("{}:{} at {:.4g} m/s, R* = {:.4g} m, I = rho V^2/Y = {:.3g}, {} law\n", c.names.first, c.names.second, velocity, c.r_eff, found.damage_number,
       name_of(found.statement.kind));
-  print_collision(found.replay, fmt::format("{:.3g} of the law's range", found.replay.delta_max / c.limit()));
+  print_collision(found.replay, fmt::format("{:.3g} R*, {:.3g} of the law's range", found.replay.delta_max / c.r_eff, found.replay.delta_max / c.limit()));
   fmt::print("error bound (95 %)             {}\n", bound_text(found));
 }
 

@@ -8,7 +8,7 @@
 #include "atlas/composed_law.hpp"
 #include "base/error.hpp"
 #include "command.hpp"
-#include "deck/densities.hpp"
+#include "deck/material_names.hpp"
 #include "deck/tangential_need.hpp"
 #include "deck_options.hpp"
 #include "json_output.hpp"

@@ -1,10 +1,7 @@
-"""Map of (V/V_y, delta/R) in which the contacts of the flow lived, over the law they used: from the plug-in's stats.json and the law file. Of
-decks that are no example also the energies over time and the speeds."""
+"""Map of (V/V_on, delta/R*) in which the contacts of the flow lived, within the range of their law: from the plug-in's stats.json. V_on: the speed at
+which yield begins. Of decks that are no example also the energies over time and the speeds."""
 import math
-import pathlib
-import re
 
-import h5py
 import numpy as np
 from matplotlib.colors import LogNorm
 
@@ -18,66 +15,19 @@ ENERGIES = {"kinetic_J": "kinetic", "rotational_J": "rotation", "elastic_J": "el
             "wave_dissipation_J": "taken by waves", "other_work_J": "taken by friction and the like"}
 
 
-class Law:
-    """Data of a law file for the map (docs/reference/law-format.md): E*/Y, the onset, and the curve of a head-on impact. Of two materials
-    it is the one whose yield stress is lower."""
-
-    def __init__(self, path, materials):
-        try:
-            with h5py.File(path) as file:
-                found = [(file["bodies"][m]["material/yield_stress"][()], m) for m in materials if m in file["bodies"] and "yield_stress" in file["bodies"][m]["material"]]
-                body = file["bodies"][min(found)[1] if found else materials[0]]
-                get = lambda part, name: body[part][name][()]
-                e_star = get("material", "youngs_modulus") / (1 - get("material", "poisson_ratio")**2)
-                self.ratio = float(e_star / get("material", "yield_stress"))
-                self.end, self.onset = float(get("curve", "end")), float(get("curve", "onset"))
-                self.force, self.slope = get("curve", "force"), get("curve", "force_slope")
-                k = np.arange(len(self.force))
-                self.nodes = self.onset * (1 + k % 8 / 8) * 2.0**(k // 8 - get("curve", "octaves"))
-        except (OSError, KeyError, ValueError, RuntimeError) as error:
-            raise files.Unreadable(path, f"not a law file with material '{materials[0]}' ({str(error).splitlines()[0]})") from None
-
-    @property
-    def yield_per_onset(self):
-        """V_y over the true onset velocity: V goes as overlap^(5/4) in the elastic range, delta_y/R = (1.6 pi Y/(2 E*))^2."""
-        return ((0.8 * math.pi / self.ratio)**2 / self.onset)**1.25
-
-    def impacts(self):
-        """(V/V_y, x): overlap x over lambda R* at which a head-on impact turns, quasi-static; x is delta/R on a rigid wall.
-
-        (V/V_onset)^2 = W(x)/W(onset), W the loading work: the same for the wall and for like pairs."""
-        x = np.linspace(self.nodes[0]**0.25, self.end**0.25, 20001)**4
-        k = np.clip(np.searchsorted(self.nodes, x, "right") - 1, 0, len(self.nodes) - 2)
-        h = self.nodes[k + 1] - self.nodes[k]
-        t, f, m = (x - self.nodes[k]) / h, self.force, self.slope
-        force = (1 - t)**2 * ((1 + 2 * t) * f[k] + t * h * m[k]) + t**2 * ((3 - 2 * t) * f[k + 1] - (1 - t) * h * m[k + 1])
-        work = np.concatenate([[0], np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(x))])
-        keep = x > 1e-6 * self.onset
-        return np.sqrt(work[keep] / np.interp(self.onset, x, work)) / self.yield_per_onset, x[keep]
-
-    def fastest(self, damage_number_limit):
-        """V/V_y at I = rho V^2/Y of the yielding body: rho V_y^2/Y = (pi/2)^4 (2/5) 1.6^5 (Y/E*)^4."""
-        return math.sqrt(damage_number_limit / ((math.pi / 2)**4 * 0.4 * 1.6**5)) * self.ratio**2
-
-
 class Contacts:
-    """All contacts of one kind of pair in one deck's runs. Speeds in V/V_y (`law` None, which is of a body that does not yield: in m/s),
-    overlaps over R*."""
+    """All contacts of one kind of pair in one deck's runs. Speeds in V/V_on (of a body that does not yield: in m/s), overlaps over R*."""
 
-    def __init__(self, key, law, entry, path):
+    def __init__(self, key, entry):
         self.kind, self.materials = key
-        self.law = law
-        onset, limit, fastest = (entry.get(k) for k in ("onset_speed_m_per_s", "overlap_over_radius_limit", "damage_number_limit"))
-        if law:
-            files.rows_with(path, [entry], ("onset_speed_m_per_s", "overlap_over_radius_limit"))
-        self.yield_speed, self.limit = onset * law.yield_per_onset if law else 1.0, limit
-        self.fastest = law.fastest(fastest) if law and fastest else None
-        self.onset = 1 / law.yield_per_onset if law else None
+        self.onset, self.limit = entry.get("onset_speed_m_per_s"), entry.get("overlap_over_radius_limit")
+        self.yields = self.onset is not None and self.limit is not None
+        self.unit = self.onset if self.yields else 1.0  # m/s
+        self.fastest = None  # speed at which the law's range of damage numbers ends
         self.begun = self.beyond = self.beyond_axis = self.below_axis = 0.0
         self.speed, self.overlap = {}, {}
         self.joint, self.mapped = {}, True  # (bin of speed, of overlap): contacts that ended; of every run, or not at all
         self.speed_max = self.overlap_max = 0.0
-        self.scale = limit / law.end if law else None  # lambda: x of the law to overlap/R*
 
     def add(self, entry, path):
         files.rows_with(path, [entry], ("contacts_begun", "contact_steps_beyond_table"))
@@ -85,7 +35,10 @@ class Contacts:
         self.beyond += entry["contact_steps_beyond_table"]
         self.beyond_axis += entry.get("contacts_beyond_speed_axis") or 0
         self.below_axis += entry.get("contacts_below_speed_axis") or 0
-        self.speed_max = max(self.speed_max, (entry["impact_speed_max_m_per_s"] or 0) / self.yield_speed)
+        fastest = (entry["impact_speed_max_m_per_s"] or 0) / self.unit
+        if self.yields and entry.get("damage_number_limit") and entry.get("damage_number_max"):  # I goes as V^2
+            self.fastest = fastest * math.sqrt(entry["damage_number_limit"] / entry["damage_number_max"])
+        self.speed_max = max(self.speed_max, fastest)
         self.overlap_max = max(self.overlap_max, entry["overlap_over_radius_max"] or 0)
         for into, name in ((self.speed, "impact_speed"), (self.overlap, "largest_overlap_over_radius")):
             histogram = entry.get(name)
@@ -124,14 +77,14 @@ class Contacts:
         for (speed, overlap), count in self.joint.items():
             counts[overlap - low[1], speed - low[0]] = count
         edges = [np.array([10**(b / BINS) for b in range(low[axis], high[axis] + 2)]) for axis in (0, 1)]
-        return edges[0] / self.yield_speed, edges[1], counts
+        return edges[0] / self.unit, edges[1], counts
 
     def histogram(self, which):
-        """(edges, counts), edges in V/V_y or overlap/R*."""
+        """(edges, counts), edges in V/V_on or overlap/R*."""
         counts = self.speed if which == "speed" else self.overlap
         bins = range(min(counts), max(counts) + 1)
         edges = np.array([10**(b / BINS) for b in [*bins, bins[-1] + 1]])
-        return edges / (self.yield_speed if which == "speed" else 1.0), np.array([counts.get(b, 0) for b in bins])
+        return edges / (self.unit if which == "speed" else 1.0), np.array([counts.get(b, 0) for b in bins])
 
     def quantile(self, which, part):
         edges, counts = self.histogram(which)
@@ -144,38 +97,20 @@ class Contacts:
     def elastic_share(self):
         """Fraction of the contacts that were slower than the onset of yield (the bin of the onset is cut in proportion)."""
         edges, counts = self.histogram("speed")
-        if not self.law:
+        if not self.yields:
             return 1.0
-        parts = np.clip(np.log(self.onset / edges[:-1]) / np.log(edges[1:] / edges[:-1]), 0, 1)
+        parts = np.clip(np.log(1 / edges[:-1]) / np.log(edges[1:] / edges[:-1]), 0, 1)
         return float(np.sum(parts * counts) / np.sum(counts))
 
 
-def law_of(run, entry):
-    """The law file that a run used: named by its `command` or by stats.json; where it was, else of the same name in or beside the run's folder."""
-    names = []
-    if (run / "command").is_file():
-        names += re.findall(r"-var law (\S+)", (run / "command").read_text(errors="replace"))
-    names += re.findall(r"\S+\.h5", str(entry.get("law", "")))
-    root = pathlib.Path(__file__).resolve().parents[2]
-    candidates = [base / name for name in names for base in (run, pathlib.Path("."), root, run.parent)]
-    candidates += [base / pathlib.Path(name).name for base in (run, run.parent) for name in names]
-    return next((p for p in candidates if p.is_file()), None)
-
-
-def add_run(kinds, laws, path, stats):
+def add_run(kinds, path, stats):
     """Adds one run's pairs to `kinds`: {(kind, materials): Contacts}."""
     if not isinstance(stats.get("pairs"), list):
         raise files.Unreadable(path, "has no 'pairs'")
     for entry in stats["pairs"]:
-        if not isinstance(entry, dict) or not entry.get("contacts_begun"):
-            continue
-        key, law = (entry["kind"], tuple(entry["materials"])), None
-        if entry.get("onset_speed_m_per_s") is not None and entry.get("overlap_over_radius_limit") is not None:  # neither: elastic, thornton
-            file = law_of(path.parent, entry)
-            if file is None:
-                raise files.Unreadable(path, f"its law '{entry.get('law')}' is not there any more")
-            law = laws.get((file, key[1])) or laws.setdefault((file, key[1]), Law(file, key[1]))
-        kinds.setdefault(key, Contacts(key, law, entry, path)).add(entry, path)
+        if isinstance(entry, dict) and entry.get("contacts_begun"):
+            key = (entry["kind"], tuple(entry["materials"]))
+            kinds.setdefault(key, Contacts(key, entry)).add(entry, path)
 
 
 def sorted_kinds(kinds):
@@ -186,13 +121,13 @@ def read(decks):
     """({deck title: [Contacts, ...]}, [Unreadable, ...]) of the unstretched `mpm` runs."""
     found, broken = {}, []
     for deck in decks:
-        kinds, laws = {}, {}
+        kinds = {}
         try:
             for run in deck.folders.get("mpm", []):
                 path = run / "stats.json"
                 if not path.exists():
                     continue
-                add_run(kinds, laws, path, files.read_json(path))
+                add_run(kinds, path, files.read_json(path))
         except files.Unreadable as error:
             broken.append(error)
             continue
@@ -208,7 +143,7 @@ class Run:
         self.path, self.title = path, title
         stats = files.read_json(path, series=dict)
         kinds = {}
-        add_run(kinds, {}, path, stats)
+        add_run(kinds, path, stats)
         self.kinds = sorted_kinds(kinds)
         self.series = stats["series"]
         columns = [c for c in self.series.values() if isinstance(c, list)]
@@ -247,16 +182,13 @@ def name_of(contacts):
 
 
 def draw_law(middle, contacts, x_low, x_high, y_low):
-    """End of the law, onset of yield, and the overlap of a head-on impact."""
+    """End of the law, and onset of yield."""
     end = contacts.fastest or x_high
     middle.set_facecolor("#efe9e4")
     middle.fill_between([x_low, end], y_low, contacts.limit, color="white", lw=0)
-    middle.plot([end, end], [y_low, contacts.limit], color="tab:red", lw=1)
-    middle.plot([x_low, end], [contacts.limit] * 2, color="tab:red", lw=1, label="end of the law")
-    middle.axvspan(x_low, contacts.onset, color="tab:green", alpha=0.08, lw=0)
-    middle.plot([contacts.onset, contacts.onset], [y_low, contacts.limit], color="tab:green", lw=0.9, linestyle="--", label="onset of yield")
-    v, x = contacts.law.impacts()
-    middle.plot(v, contacts.scale * x, color="black", lw=1.2, label="a head-on impact turns here")
+    middle.plot([x_low, end, end], [contacts.limit, contacts.limit, y_low], color="tab:red", lw=1, label="end of the law")
+    middle.axvspan(x_low, 1, color="tab:green", alpha=0.08, lw=0)
+    middle.plot([1, 1], [y_low, contacts.limit], color="tab:green", lw=0.9, linestyle="--", label="onset of yield")
 
 
 def draw(figure, contacts, title):
@@ -268,7 +200,7 @@ def draw(figure, contacts, title):
     overlap, overlaps = contacts.histogram("overlap")
     x_low, x_high = 0.5 * speed[0], 3 * max(speed[-1], contacts.fastest or 0)
     y_low, y_high = max(0.5 * overlap[0], 1e-9), 3 * max(overlap[-1], contacts.limit or 0)
-    if contacts.law:
+    if contacts.yields:
         draw_law(middle, contacts, x_low, x_high, y_low)
     plane = contacts.plane()
     if plane:
@@ -279,7 +211,7 @@ def draw(figure, contacts, title):
         middle.axhspan(contacts.quantile("overlap", 0.005), contacts.quantile("overlap", 0.995), color="tab:blue", alpha=0.10, lw=0,
                        label="99 % of the contacts, each way")
     middle.plot([contacts.speed_max], [contacts.overlap_max], marker="+", color="tab:blue", ms=9, mew=1.6, linestyle="", label="largest V, largest δ")
-    middle.set(xscale="log", yscale="log", xlim=(x_low, x_high), ylim=(y_low, y_high), xlabel="approach speed at first touch, " + ("$V/V_y$" if contacts.law else "m/s"),
+    middle.set(xscale="log", yscale="log", xlim=(x_low, x_high), ylim=(y_low, y_high), xlabel="approach speed at first touch, " + ("$V/V_{on}$" if contacts.yields else "m/s"),
                ylabel="largest overlap, $\\delta/R^*$")
     top.stairs(np.maximum(speeds, 0.3), speed, fill=True, color="tab:blue", alpha=0.55, baseline=0.3)
     right.stairs(np.maximum(overlaps, 0.3), overlap, fill=True, color="tab:blue", alpha=0.55, baseline=0.3, orientation="horizontal")
@@ -322,9 +254,9 @@ def picture_of_run(run):
     speed.set(title="Fastest particle", xlabel="time, s", ylabel="speed, m/s", ylim=(0, None))
     for k, c in enumerate(run.kinds):
         edges, counts = c.histogram("speed")
-        axis.stairs(counts, edges * c.yield_speed, color=f"C{k}", label=f"{' - '.join(c.materials)}, {c.kind}")
-        if c.law:
-            axis.axvline(c.onset * c.yield_speed, color=f"C{k}", linestyle="--", lw=0.9)
+        axis.stairs(counts, edges * c.unit, color=f"C{k}", label=f"{' - '.join(c.materials)}, {c.kind}")
+        if c.yields:
+            axis.axvline(c.onset, color=f"C{k}", linestyle="--", lw=0.9)
     axis.set(title="Approach speeds", xscale="log", yscale="log", xlabel="approach speed at first touch, m/s", ylabel="contacts begun")
     axis.set_ylim(0.5, 4 ** len(run.kinds) * axis.get_ylim()[1])  # room for the legend
     if run.kinds:
@@ -344,20 +276,19 @@ def write_runs(page, runs, left_out):
 def write(page, found):
     page.text("Each contact has a speed at first touch and a largest overlap, counted in eight bins a decade: the bars above and beside each map. "
               "Blue in the map: contacts that ended, by both (`contactMap on`; runs without it show only how far the two reach, each for itself). "
-              "White: what the law was computed for. Black: where a head-on impact of two free "
-              "bodies turns (quasi-static). Overlaps that speed alone does not explain come from static load and from several contacts at once.")
+              "White: what the law was computed for. Overlaps that speed alone does not explain come from static load and from several contacts at once.")
     rows = []
     for k, (deck, kinds) in enumerate(found.items(), 1):
         page.figure(picture(kinds), f"contacts-{k}", f"Contacts of {deck}" + (f": the two kinds of {len(kinds)} with most contacts." if len(kinds) > 2 else "."))
         for c in kinds:
             share = c.elastic_share()
-            unit = "" if c.law else " m/s"
+            unit = "" if c.yields else " m/s"
             rows.append([deck, f"{'-'.join(c.materials)}, {c.kind}", f"{c.begun:.0f}", *[number(c.quantile("speed", p)) + unit for p in (0.5, 0.995)],
                          number(c.speed_max) + unit, number(c.fastest) if c.fastest else "not stated", f"{100 * share:.0f} %",
                          *[number(c.quantile("overlap", p)) for p in (0.5, 0.995)], number(c.overlap_max), number(c.limit) if c.limit else "no end", f"{c.beyond:.0f}",
                          f"{c.beyond_axis:.0f}", f"{c.below_axis:.0f}"])
-    page.table(["deck", "pair", "contacts", "V/V_y: median", "99.5 %", "largest", "law to", "below onset", "δ/R*: median", "99.5 %", "largest",
+    page.table(["deck", "pair", "contacts", "V/V_on: median", "99.5 %", "largest", "law to", "below onset", "δ/R*: median", "99.5 %", "largest",
                 "law to", "steps beyond it", "too fast for it", "too slow for it"], rows)
-    page.text("Quantiles are read from bins a third of their value wide: good to about 15 %. V_y: yield velocity with the customary 1.6 Y "
-                "(rho V_y²/Y = 25.5 (Y/E*)⁴ on a rigid wall, twice that V for a like pair); steps beyond it: contact-steps at overlaps beyond the table; too fast for it: contacts that began faster than its velocity axis goes; too slow for it: than the axis of a rate-dependent law begins; below onset: slower than the true onset of yield. From the "
-                "`stats.json` of each run (`fix granulaw/stats`) and the law file it names.")
+    page.text("Quantiles are read from bins a third of their value wide: good to about 15 %. V_on: the speed at which yield begins between the smallest bodies; "
+              "steps beyond it: contact-steps at overlaps beyond the table; too fast for it: contacts that began faster than its velocity axis goes; too slow for it: than the "
+              "axis of a rate-dependent law begins. From the `stats.json` of each run (`fix granulaw/stats`).")

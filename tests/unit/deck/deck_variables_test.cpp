@@ -1,4 +1,4 @@
-#include "deck/convert/deck_variables.hpp"
+#include "deck/convert/time_steps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@ TEST_F(DeckVisited, KeepsWhatARunVisitedByTypes)
     return "{\"kind\": \"" + kind + "\", \"types\": [" + std::to_string(a) + ", " + std::to_string(b) +
            "], \"contacts_begun\": 2, \"impact_speed_max_m_per_s\": " + std::to_string(speed) +
            ", \"overlap_over_radius_max\": " + std::to_string(overlap) +
-           ", \"inertia_number_max\": " + std::to_string(damage_number) + "}";
+           ", \"damage_number_max\": " + std::to_string(damage_number) + "}";
   };
   const Visited v =
       read_visited(write("s.json", "{\"pairs\": [" + entry("particles", 1, 2, 0.5, 0.25, 0.125) + ", " +

@@ -5,13 +5,23 @@
 #include <string>
 #include <vector>
 
-#include "deck/convert/check.hpp"
 #include "deck/convert/choices.hpp"
 #include "deck/convert/convert.hpp"
 #include "deck/convert/folder.hpp"
 #include "deck/plan.hpp"
+#include "deck/scene.hpp"
 
 namespace granulaw::deck {
+
+/// Some hundred steps of original and converted deck.
+struct Checked
+{
+  ShortRun before, after;
+  std::vector<std::string> files_missing, files_new;  ///< written by one of them alone
+};
+
+/// Runs both where they stand, without writing a file: 300 steps of the original, `step_factor` times as many of the converted deck.
+Checked check(const Scene& scene, const std::filesystem::path& folder, double step_factor);
 
 /// A conversion and its result.
 struct Converted

@@ -1,8 +1,18 @@
-// std::ranges::all_of and none_of for the libc++ of Debian 12's emscripten, which has neither. Included before the files that
-// declare flow laws.
+// For the libc++ of Debian 12's emscripten: std::bit_cast, std::ranges::all_of and none_of, which it lacks. Included before every file of the module.
 #pragma once
 
 #include <functional>
+#include <type_traits>
+
+namespace std {
+
+template <class To, class From>
+constexpr To bit_cast(const From& from) noexcept
+{
+  return __builtin_bit_cast(To, from);
+}
+
+}  // namespace std
 
 namespace std::ranges {
 
