@@ -645,7 +645,7 @@ def test_checkpoint():
     # what is refused is left as it is; all that makes another run, and every damage: tests/unit/checkpoint_file_test.cpp
     kept = ["--checkpoint", file]
     refused([*words[:5], "0.4", *words[6:], *kept], str(file), "another run", "--velocity", "0.3", "0.4")
-    refused([*words, *kept, "--grid", "tartan"], str(file), "another run", "--grid")
+    refused([*words, *kept, "--grid", "rectilinear"], str(file), "another run", "--grid")
     refused([*words, *kept, "--wall", "glass"], str(file), "another run", "partner")
     refused(["press", name, "--particle", "grain", "--depth", "0.02", *kept], str(file), "another run", "press")
     os.environ["GRANULAW_ISA"] = "generic"

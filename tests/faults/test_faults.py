@@ -70,6 +70,7 @@ class TestFaults:
         done = run(*words)  # all are done: nothing is built
         assert f"{len(faults) - 1} of {len(faults)} faults that change a result are caught" in done.stdout
         assert f"survived: {faults[0].path}:{faults[0].line}" in done.stdout
+        (folder / "page.md").write_text("<!-- tools/faults: begin -->\n<!-- tools/faults: end -->\n")
         run(*words, "--page", folder / "page.md")
         shown = (folder / "page.md").read_text()
         assert f"| all | {len(faults) - 1} | 1 | 0 | 0 |" in shown  # caught, survived, no change seen, not compiled

@@ -11,15 +11,9 @@ inline double hertz_overlap(double e_star, double r_eff, double m_eff, double sp
 }
 
 /// Its duration, s (K. L. Johnson, Contact Mechanics, 11.24).
-inline double hertz_time(double e_star, double r_eff, double m_eff, double speed)
-{
-  return 2.9432 * hertz_overlap(e_star, r_eff, m_eff, speed) / speed;
-}
+inline double hertz_time(double e_star, double r_eff, double m_eff, double speed) { return 2.9432 * hertz_overlap(e_star, r_eff, m_eff, speed) / speed; }
 
 /// N/m, at this overlap.
-inline double hertz_stiffness(double e_star, double r_eff, double overlap)
-{
-  return 2 * e_star * std::sqrt(r_eff * overlap);
-}
+inline double hertz_stiffness(double e_star, double r_eff, double overlap) { return 2 * e_star * std::sqrt(r_eff * overlap); }
 
 }  // namespace granulaw::deck

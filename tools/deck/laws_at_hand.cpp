@@ -90,10 +90,7 @@ class LawsAtHand
 };
 
 /// Thornton's closed form, as model thornton has it.
-ThorntonPair thornton_of(const Meeting& m, double yield_pressure)
-{
-  return {m.mapping.e_star_pair(), yield_pressure * m.yields.yield_stress};
-}
+ThorntonPair thornton_of(const Meeting& m, double yield_pressure) { return {m.mapping.e_star_pair(), yield_pressure * m.yields.yield_stress}; }
 
 std::optional<Collision> collide_by_thornton(const ThorntonPair& law, const Meeting& m, double r_eff, double m_eff, double speed)
 {

@@ -51,10 +51,7 @@ Meeting meeting_with_rigid_wall(const AtomType& a, int wall_type)
   return m;
 }
 
-std::string types_text(const Meeting& meeting)
-{
-  return fmt::format("{}:{}{}", meeting.a, meeting.wall ? "wall " : "", meeting.b);
-}
+std::string types_text(const Meeting& meeting) { return fmt::format("{}:{}{}", meeting.a, meeting.wall ? "wall " : "", meeting.b); }
 
 namespace {
 

@@ -32,10 +32,7 @@ void set_sizes(Plan& plan, const AtomTypes& types)
   }
 }
 
-bool has_single_particle(const Scene& scene)
-{
-  return scene.sources.size() == 1 && scene.sources[0].count == 1 && scene.unknown_particles.empty();
-}
+bool has_single_particle(const Scene& scene) { return scene.sources.size() == 1 && scene.sources[0].count == 1 && scene.unknown_particles.empty(); }
 
 /// Particles of each two types.
 void add_particle_pairs(std::vector<Encounter>& encounters, const Scene& scene, const AtomTypes& types, const Strikes& strikes)

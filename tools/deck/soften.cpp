@@ -30,10 +30,7 @@ EffectiveBody largest(const Plan& plan, const Meeting& m)
   return m.wall ? EffectiveBody{plan.radius_max, plan.mass_max} : EffectiveBody{0.5 * plan.radius_max, 0.5 * plan.mass_max};
 }
 
-std::string name_of(const Meeting& m)
-{
-  return m.name_a + ":" + m.name_b;
-}
+std::string name_of(const Meeting& m) { return m.name_a + ":" + m.name_b; }
 
 /// Volume of all particles, m^3.
 double solid_volume(const Scene& scene, const Plan& plan, const PlanOptions& options)

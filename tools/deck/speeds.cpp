@@ -94,10 +94,7 @@ double SpeedBound::free_speed(int type, double radius, double height) const
   return std::isfinite(speed) ? speed : 0.0;
 }
 
-double SpeedBound::start_speed(int type) const
-{
-  return flights_.at(type).speed;
-}
+double SpeedBound::start_speed(int type) const { return flights_.at(type).speed; }
 
 void SpeedBound::ask_for_missing(std::vector<Question>& questions) const
 {

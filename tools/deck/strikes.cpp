@@ -110,10 +110,7 @@ double Strikes::turned_by_impact(const Body& body, double speed) const
   return e * speed + (1 + e) * push;
 }
 
-double Strikes::turned(const Body& body, double speed) const
-{
-  return std::max(turned_by_impact(body, speed), has_slopes_ ? kept_in_a_turn(body) * speed : 0.0);
-}
+double Strikes::turned(const Body& body, double speed) const { return std::max(turned_by_impact(body, speed), has_slopes_ ? kept_in_a_turn(body) * speed : 0.0); }
 
 /// After four hits in turn: more give an elastic body any speed, and others stand in between.
 double Strikes::shaken(const Body& body) const

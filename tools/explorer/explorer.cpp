@@ -77,16 +77,10 @@ struct Formula
   }
 };
 
-Formula hertz_of(const ChosenPair& c)
-{
-  return {{c.law.mapping.e_star_pair(), infinite}, c.r_eff, c.m_eff};
-}
+Formula hertz_of(const ChosenPair& c) { return {{c.law.mapping.e_star_pair(), infinite}, c.r_eff, c.m_eff}; }
 
 /// Thornton's formula with the customary yield pressure of the body that yields first.
-Formula thornton_of(const ChosenPair& c)
-{
-  return {{c.law.mapping.e_star_pair(), customary_yield_pressure * c.law.yielding->material.yield_stress}, c.r_eff, c.m_eff};
-}
+Formula thornton_of(const ChosenPair& c) { return {{c.law.mapping.e_star_pair(), customary_yield_pressure * c.law.yielding->material.yield_stress}, c.r_eff, c.m_eff}; }
 
 constexpr int picture_steps = 1500;  // of a collision whose curve is drawn: e within 2e-6
 constexpr int sweep_steps = 400;     // of one of many: e within 1e-5

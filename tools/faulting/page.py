@@ -60,24 +60,12 @@ def write_uncaught(results, path):
                                  ", ".join(r.get("changed", []))])
 
 
-def page(results, seed, picked):
-    """`picked`: how many faults there are, done or not."""
+def summary(results, seed, picked):
+    """What stands between the marks of the page. `picked`: how many faults there are, done or not."""
     caught, changing = score(results)
-    done = f"{len(results)} of {picked} are done" if len(results) < picked else f"All {picked} are done"
-    lines = ["# Faults put in by hand: what the quick tests notice", "",
-             "One-line faults in the code, and the quick tests that catch them.", "",
-             f"**{caught} of the {changing} faults that change a result are caught ({100 * caught / max(1, changing):.0f} %).** Some tests were written for faults of this seed. The rate on an unused seed is not known.", "",
+    lines = [f"**{caught} of the {changing} faults that change a result are caught ({100 * caught / max(1, changing):.0f} %).** "
+             f"Seed {seed}, {sum(r['named'] for r in results)} faults chosen by hand; {len(results)} of {picked} are done.", "",
              "| | " + " | ".join(VERDICTS) + " |", "|---|" + "---|" * len(VERDICTS)]
     for name, numbers in counts(results, "kind", KINDS) + counts(results, "folder", FOLDERS) + [total(results)]:
         lines.append(f"| {name} | " + " | ".join(map(str, numbers)) + " |")
-    lines += ["",
-              "- *Caught*: a test fails, or takes five times as long as it should.",
-              "- *Survived*: every quick test passes, yet a number changes in the output of a battery of commands (`tools/faulting/battery.py`).",
-              "- *No change seen*: the tests near the fault pass, and no output of the battery differs by more than 1e-9. Most of",
-              "  these lines do the same with the fault. The others lie where neither quick tests nor battery go.",
-              "- *Not compiled*: the compiler is the test.", "",
-              f"`tools/faults --seed {seed}` puts faults into a copy of the sources, one line and one fault at a time, and runs the quick",
-              f"tests on each. The seed picks the places; {sum(r['named'] for r in results)} faults are chosen by hand. {done}. `build/faults/results.jsonl` has each",
-              "fault, and the test that caught it. `--page` writes the table."]
-    lines += ["", "[faults.csv](faults.csv) lists the faults that no test caught."]
     return "\n".join(lines) + "\n"

@@ -26,10 +26,7 @@ std::string without_blanks(const std::string& word)
   return first == std::string::npos ? "" : word.substr(first, word.find_last_not_of(' ') - first + 1);
 }
 
-double number_or_nan(const std::string& word)
-{
-  return number_in(without_blanks(word)).value_or(std::nan(""));
-}
+double number_or_nan(const std::string& word) { return number_in(without_blanks(word)).value_or(std::nan("")); }
 
 std::vector<std::string> words_of_kinds()
 {
@@ -65,10 +62,7 @@ std::string fit_help()
 }
 
 /// "hardness/yield_stress": of the kinds that may have it.
-std::string ratio_name(const Kind& kind)
-{
-  return fmt::format("{}/{}", kind.y.quantity, name_of(Parameter::yield_stress));
-}
+std::string ratio_name(const Kind& kind) { return fmt::format("{}/{}", kind.y.quantity, name_of(Parameter::yield_stress)); }
 
 std::string ratio_names()
 {

@@ -69,7 +69,7 @@ void define(Options& command)
 }  // namespace of_check
 
 extern const Command check_command{"check",
-    "Checks that a law file is complete, conserves energy, and agrees with new solver runs.\n"
+    "Checks a law file: that it is complete, conserves energy, and agrees with new solver runs.\n"
     "The runs are impacts at random velocities within the range of the law. They are of each yielding\n"
     "material on a wall, and of the two bodies of each pair with a pair law. Force and e must lie within twice the error bound.\n"
     "Example: mpm check law.h5",

@@ -8,16 +8,10 @@
 namespace granulaw {
 
 /// A relative error in per cent.
-inline std::string percent(double error)
-{
-  return fmt::format("{:.2g} %", 100 * error);
-}
+inline std::string percent(double error) { return fmt::format("{:.2g} %", 100 * error); }
 
 /// Two relative errors, for a sentence.
-inline std::string errors_text(double force, double restitution)
-{
-  return fmt::format("force within {}, e within {}", percent(force), percent(restitution));
-}
+inline std::string errors_text(double force, double restitution) { return fmt::format("force within {}, e within {}", percent(force), percent(restitution)); }
 
 /// The first keys of --json, SI, which mpm impact and press (Collision = RunSummary) and mpm law (Replay)
 /// share.

@@ -105,10 +105,7 @@ double duration(const deck::Scene& scene)
 }
 
 /// To 2 %: counts are rounded.
-bool lasts_as_long(const deck::Scene& now, const deck::Scene& before)
-{
-  return std::abs(duration(now) - duration(before)) <= 0.02 * duration(before);
-}
+bool lasts_as_long(const deck::Scene& now, const deck::Scene& before) { return std::abs(duration(now) - duration(before)) <= 0.02 * duration(before); }
 
 /// Runs that last another time than the original's, and insertions that bring in other numbers.
 void compare_runs(deck::Converted& c, const deck::Scene& now)
@@ -267,7 +264,7 @@ void define(Options& command)
 }  // namespace
 
 extern const Command convert_command{"convert",
-    "Makes a deck of model mpm, with its law, from a LIGGGHTS deck of another normal model (hertz, hooke,\n"
+    "Makes a deck of model mpm, with its law, from one of another model (hertz, hooke,\n"
     "hooke/stiffness, hooke/hysteresis, ...). The original is not touched. It writes FOLDER/DECK with its\n"
     "includes and the files it reads, FOLDER/law.h5, and FOLDER/conversion.md. The last has each changed line with\n"
     "its reason, and the lines that could not be converted. The particles get the real moduli of the materials file.\n"

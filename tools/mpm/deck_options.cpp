@@ -92,10 +92,7 @@ deck::Presets DeckOptions::presets() const
   return result;
 }
 
-PlannedDeck plan_deck(const std::string& path, const DeckOptions& o)
-{
-  return plan_scene(deck::read_scene(path, o.presets()), o);
-}
+PlannedDeck plan_deck(const std::string& path, const DeckOptions& o) { return plan_scene(deck::read_scene(path, o.presets()), o); }
 
 PlannedDeck plan_scene(deck::Scene scene, const DeckOptions& o)
 {
@@ -133,9 +130,6 @@ void require_answers(const deck::Plan& plan, const std::string& deck)
     if (q.option != "--particles N") fail(deck, fmt::format("not in the deck: {}: give it by {}", q.what, q.option));
 }
 
-std::string step_text(double time_step)
-{
-  return fmt::format("{:.3g}", deck::rounded_down(time_step, 3));
-}
+std::string step_text(double time_step) { return fmt::format("{:.3g}", deck::rounded_down(time_step, 3)); }
 
 }  // namespace granulaw

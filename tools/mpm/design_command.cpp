@@ -28,10 +28,7 @@ struct DesignRequest
 
 constexpr double gravity = 9.81;
 
-double drop_height(double speed)
-{
-  return speed * speed / (2 * gravity);
-}
+double drop_height(double speed) { return speed * speed / (2 * gravity); }
 
 /// Evenly in the logarithm, up to `most`, whose reason is `why`.
 void add_candidates(

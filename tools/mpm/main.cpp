@@ -32,21 +32,28 @@ namespace {
 using namespace granulaw;
 
 constexpr const char* summary =
-    "mpm: contact laws between particles, computed by the material point method.\n"
-    "SI units: kg/m^3, Pa, m, m/s, N, J, s. A first session:\n"
-    "  mpm table materials.toml -o law.h5                               the contact law of every pair\n"
-    "  mpm law law.h5 --pair powder:wall --radius 2e-3 --velocity 1.0   a collision by the law\n"
-    "  mpm impact materials.toml --particle grain --velocity 1.0        the same by the solver\n"
-    "  mpm plot law.h5 -o law.png                                       what the law looks like";
+    "mpm: contact laws between particles, by the material point method. SI units.
+    "
+    "First: mpm table materials.toml -o law.h5, then mpm plot law.h5 -o law.png";
 
-/// The commands by groups, a line each.
+/// The commands by groups, a line each: one screen.
 class GroupedHelp final : public CLI::Formatter
 {
+  std::string make_usage(const CLI::App* app, std::string name) const override{return app->get_parent() ? Formatter::make_usage(app, name)
+                                                                                                        : "Usage: mpm COMMAND [OPTIONS], or mpm --version
+                                                                                                          ";
+  }
+
+  std::string make_groups(const CLI::App* app, CLI::AppFormatMode mode) const override
+  {
+    return app->get_parent() ? Formatter::make_groups(app, mode) : "";
+  }
+
   std::string make_subcommands(const CLI::App* app, CLI::AppFormatMode) const override
   {
     std::string text, group;
     for (const CLI::App* one : app->get_subcommands({})) {
-      if (text.empty()) text = "\nCommands (mpm COMMAND --help explains each):\n";
+      if (text.empty()) text = "Commands (mpm COMMAND --help explains each):\n";
       if (one->get_group() != group) text += fmt::format("{}:\n", group = one->get_group());
       const std::string whole = one->get_description();
       const auto end = std::min({whole.find(": "), whole.find(". "), whole.find(".\n"), whole.find("; "), whole.find(" (")});
@@ -148,10 +155,7 @@ std::string parse_sentence(const CLI::App& app, int argc, char** argv, const CLI
 }
 
 /// True of a sentence that an option leads: "--depth: cannot be used: ...".
-bool names_an_option(const std::string& sentence)
-{
-  return sentence.starts_with("--") || sentence.starts_with("-o: ");
-}
+bool names_an_option(const std::string& sentence) { return sentence.starts_with("--") || sentence.starts_with("-o: "); }
 
 /// CLI11 takes the words from their end.
 void parse_reversed(CLI::App& app, std::vector<std::string> words)

@@ -91,15 +91,9 @@ GRANULAW_OPTION(std::optional<int>)
 GRANULAW_OPTION(std::optional<double>)
 #undef GRANULAW_OPTION
 
-Option Options::add_flag(const std::string& names, bool& value, const std::string& description)
-{
-  return Option(app_->add_flag(names, value, description));
-}
+Option Options::add_flag(const std::string& names, bool& value, const std::string& description) { return Option(app_->add_flag(names, value, description)); }
 
-Option Options::get_option(const std::string& name) const
-{
-  return Option(app_->get_option(name));
-}
+Option Options::get_option(const std::string& name) const { return Option(app_->get_option(name)); }
 
 std::vector<Option> Options::from(std::size_t first) const
 {
@@ -109,20 +103,11 @@ std::vector<Option> Options::from(std::size_t first) const
   return found;
 }
 
-std::size_t Options::size() const
-{
-  return app_->get_options().size();
-}
+std::size_t Options::size() const { return app_->get_options().size(); }
 
-std::size_t Options::count(const std::string& name) const
-{
-  return app_->count(name);
-}
+std::size_t Options::count(const std::string& name) const { return app_->count(name); }
 
-void Options::callback(const std::function<void()>& carry_out)
-{
-  app_->callback(carry_out);
-}
+void Options::callback(const std::function<void()>& carry_out) { app_->callback(carry_out); }
 
 namespace {
 
@@ -130,10 +115,7 @@ using Words = std::vector<std::string>;
 
 constexpr const char* between = ", \t\n";
 
-bool is_option(const std::string& word)
-{
-  return word.size() > 1 && word[0] == '-' && std::string("0123456789.").find(word[1]) == std::string::npos;
-}
+bool is_option(const std::string& word) { return word.size() > 1 && word[0] == '-' && std::string("0123456789.").find(word[1]) == std::string::npos; }
 
 /// An option with its words. The first one: words before any option.
 struct Given

@@ -72,10 +72,7 @@ bool is_unlike(const deck::PairPlan& p)
 }
 
 /// Error of composing such a law; the errors of the two bodies' laws come on top.
-ComposedError law_error(const deck::PairPlan& p)
-{
-  return composed_error(1 / (p.meeting.mapping.sqrt_lambda - 1));
-}
+ComposedError law_error(const deck::PairPlan& p) { return composed_error(1 / (p.meeting.mapping.sqrt_lambda - 1)); }
 
 /// Error of e beyond which runs of the two bodies are worth their time.
 constexpr double worth_runs = 0.01;

@@ -23,10 +23,7 @@ struct Request : PairAsked
   std::optional<double> velocity;
 };
 
-nlohmann::ordered_json as_json(const DrawnLine& line)
-{
-  return {{"name", line.name}, {"role", line.role}, {"x", line.x}, {"y", line.y}};
-}
+nlohmann::ordered_json as_json(const DrawnLine& line) { return {{"name", line.name}, {"role", line.role}, {"x", line.x}, {"y", line.y}}; }
 
 nlohmann::ordered_json as_json(const ForceLine& line)
 {

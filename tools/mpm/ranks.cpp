@@ -43,15 +43,9 @@ std::optional<MpiSession> session;
 
 }  // namespace
 
-int rank()
-{
-  return launched().rank;
-}
+int rank() { return launched().rank; }
 
-int ranks()
-{
-  return launched().size;
-}
+int ranks() { return launched().size; }
 
 void join_ranks(const std::string& command, bool shares_runs)
 {

@@ -17,16 +17,12 @@ namespace {
 
 GridKind grid_of(const std::string& name)
 {
-  if (name == "tartan") return GridKind::rectilinear;  // an alias
   for (const GridKind grid : {GridKind::automatic, GridKind::mapped, GridKind::rectilinear, GridKind::updated, GridKind::spatial})
     if (name == name_of(grid)) return grid;
   fail("--grid", "unknown grid", name, "auto, mapped, rectilinear, updated, rectilinear-3d");
 }
 
-bool same_file(const std::string& a, const std::filesystem::path& b)
-{
-  return std::filesystem::weakly_canonical(a) == std::filesystem::weakly_canonical(b);
-}
+bool same_file(const std::string& a, const std::filesystem::path& b) { return std::filesystem::weakly_canonical(a) == std::filesystem::weakly_canonical(b); }
 
 void check_numbers(const RunRequest& r)
 {
@@ -61,7 +57,7 @@ void add_bodies(Options& command, RunRequest& r)
 void add_accuracy(Options& command, RunRequest& r)
 {
   command.add_option("--grid", r.grid,
-      "mapped (fitted to the sphere); rectilinear or tartan (graded: any shape, layers, inclusions); updated (moving points: an independent check). Three dimensions, any shape, side and friction: rectilinear-3d. The default is as particle and partner require");
+      "mapped (fitted to the sphere); rectilinear (graded: any shape, layers, inclusions); updated (moving points: an independent check). Three dimensions, any shape, side and friction: rectilinear-3d. The default is as particle and partner require");
   command.add_option("--precision", r.precision, "of the material points: double (default) or single");
   const Option with_resolution =
       command.add_option("--resolution", r.resolution, "cells across the contact block, 6 to 200 (default: the run's own; in three dimensions 8)");

@@ -141,7 +141,7 @@ void define(Options& command)
 }  // namespace of_shape
 
 extern const Command shape_command{"shape",
-    "Computes the error of a sphere's law for a particle of any shape, by direction of impact on a wall. The\n"
+    "Error of a sphere's law for a particle of any shape: by direction of impact on a wall. The\n"
     "law is used with the local radius of curvature, as for clumps and superquadrics.\n"
     "Example: mpm shape grains.toml --particle pebble --velocity 1 -o pebble.csv",
     of_shape::define};

@@ -25,10 +25,7 @@ struct SoftenRequest
 
 using nlohmann::ordered_json;
 
-std::string largest(double s)
-{
-  return std::isfinite(s) ? fmt::format("{:.3g}", s) : std::string("any");
-}
+std::string largest(double s) { return std::isfinite(s) ? fmt::format("{:.3g}", s) : std::string("any"); }
 
 /// The lines to paste into the deck.
 struct Paste
@@ -36,10 +33,7 @@ struct Paste
   std::string stretch, time_step;
 };
 
-Paste paste_of(const deck::Softening& s)
-{
-  return {fmt::format("stretch {:.3g}", s.stretch), fmt::format("timestep {}", step_text(s.time_step))};
-}
+Paste paste_of(const deck::Softening& s) { return {fmt::format("stretch {:.3g}", s.stretch), fmt::format("timestep {}", step_text(s.time_step))}; }
 
 ordered_json pairs_json(const deck::Softening& s)
 {
@@ -131,7 +125,7 @@ void define(Options& command)
 }  // namespace of_stretch
 
 extern const Command stretch_command{"stretch",
-    "The largest stretch s of a deck's contact law F(delta/s)/s within limits: the time step grows by s, every\n"
+    "Largest stretch s of a deck's contact law F(delta/s)/s within limits: the time step grows by s, every\n"
     "binary impact keeps its e (docs/guide/plan.md). Prints the lines to paste.\n"
     "Example: mpm stretch in.hopper --var model mpm --var scene out/scene --materials-file materials.toml",
     of_stretch::define, false, "soften"};

@@ -100,10 +100,7 @@ void print_body(const std::string& name, const LawFilePlan::Body& planned, const
 }
 
 /// As planned; a pair that could not be composed follows the pair rule.
-bool has_own_laws(const LawFilePlan::Pair& pair, const Law& law)
-{
-  return law.pair_laws.contains(pair.name());
-}
+bool has_own_laws(const LawFilePlan::Pair& pair, const Law& law) { return law.pair_laws.contains(pair.name()); }
 
 /// Ratios of radii that have no law of their own.
 void print_not_composed(const LawFilePlan::Pair& pair, const MadeLawFile& file)

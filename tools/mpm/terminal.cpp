@@ -12,10 +12,7 @@ namespace granulaw {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-extern "C" void remember_interrupt(int)
-{
-  interrupted = 1;
-}
+extern "C" void remember_interrupt(int) { interrupted = 1; }
 
 }  // namespace
 
@@ -28,10 +25,7 @@ void catch_interrupts()
   sigaction(SIGTERM, &once, nullptr);
 }
 
-bool is_interrupted()
-{
-  return interrupted != 0;
-}
+bool is_interrupted() { return interrupted != 0; }
 
 void stop_if_interrupted()
 {

@@ -98,14 +98,6 @@ class Ensemble:
     def means(self, quantity):
         return np.array([np.mean(v) for v in self.quantities[quantity]])
 
-    def spread(self, quantity):
-        """(sd between members, sd of that which seeds alone would make or None where each has one seed)."""
-        seeds = self.quantities[quantity]
-        between = float(np.std(self.means(quantity), ddof=1))
-        if any(len(v) < 2 for v in seeds):
-            return between, None
-        return between, math.sqrt(np.mean([np.var(v, ddof=1) / len(v) for v in seeds]))
-
     def correlations(self, quantity):
         return {n: rank_correlation(v, self.means(quantity)) for n, v in self.parameters.items()}
 
@@ -144,10 +136,8 @@ def row_of(ensemble, quantity):
     values = ensemble.means(quantity)
     low, high = band(values)
     mean = float(np.mean(values))
-    _, by_seed = ensemble.spread(quantity)
     share = f"{100 * (high - low) / abs(mean):.2g} %" if mean else "n/a"
-    cells = [quantity, number(mean, 4), f"{number(low, 4)} to {number(high, 4)}", share,
-             "n/a" if by_seed is None else f"{100 * 3.92 * by_seed / abs(mean):.2g} %" if mean else "n/a"]
+    cells = [quantity, number(mean, 4), f"{number(low, 4)} to {number(high, 4)}", share]
     for found in ensemble.correlations(quantity).values():
         cells.append("n/a" if found is None else f"{found[0]:+.2f}" + (" *" if found[1] < SMALLEST_P else ""))
     return cells
@@ -183,9 +173,9 @@ def write(page, ensembles):
                         "Observables over the parameter that each follows most; the band holds 95 % of the members.")
         else:
             page.text("No observable follows a parameter beyond chance: the flow does not feel what the data leave open.")
-        page.table(["observable", "mean", "95 % of members", "width / mean", "width by seeds alone / mean", *e.parameters],
+        page.table(["observable", "mean", "95 % of members", "width / mean", *e.parameters],
                    [row_of(e, q) for q in shown])
         page.text(f"Under each parameter: Spearman's rank correlation; * p < {SMALLEST_P}. Of {tested} tested about {SMALLEST_P * tested:.1g} have a "
-                  "star by chance. Where seeds alone make the width, the material does not show; with one seed a member that is not known.")
+                  "star by chance.")
         low_high = "; ".join(f"{n} {number(v.min(), 4)} to {number(v.max(), 4)}" for n, v in e.parameters.items())
         page.text(f"From `{e.source}` and its members' folders; parameters: {low_high}.")

@@ -22,15 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-std::string join(const Words& words)
-{
-  return fmt::format("{}", fmt::join(words, " "));
-}
+std::string join(const Words& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
-bool is_property(const Words& words, const char* name)
-{
-  return is_fix(words, "property/global") && words.size() > 5 && words[4] == name;
-}
+bool is_property(const Words& words, const char* name) { return is_fix(words, "property/global") && words.size() > 5 && words[4] == name; }
 
 /// Place of `gran` in a pair_style; 0: none.
 std::size_t gran_of(const Words& words)
@@ -316,10 +310,7 @@ class Converter
 
 }  // namespace
 
-fs::path path_of(const Scene& scene, const std::string& path)
-{
-  return fs::path(scene.folder) / path;
-}
+fs::path path_of(const Scene& scene, const std::string& path) { return fs::path(scene.folder) / path; }
 
 std::string path_within(const Scene& scene, const std::string& path)
 {
@@ -331,10 +322,7 @@ std::string path_within(const Scene& scene, const std::string& path)
   return within;
 }
 
-std::string main_file(const Scene& scene)
-{
-  return scene.folder.empty() ? scene.deck : fs::path(scene.deck).filename().string();
-}
+std::string main_file(const Scene& scene) { return scene.folder.empty() ? scene.deck : fs::path(scene.deck).filename().string(); }
 
 std::map<std::string, std::string> command_files(const Scene& scene)
 {

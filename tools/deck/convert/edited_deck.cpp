@@ -12,10 +12,7 @@ std::optional<double> whole_number_in(const std::string& text)
   return number_in(text);
 }
 
-bool is_fix(const std::vector<std::string>& words, const std::string& style)
-{
-  return words.size() > 3 && words[0] == "fix" && words[3] == style;
-}
+bool is_fix(const std::vector<std::string>& words, const std::string& style) { return words.size() > 3 && words[0] == "fix" && words[3] == style; }
 
 std::vector<std::string> raw_words(const DeckLine& line)
 {
@@ -46,10 +43,7 @@ std::size_t Executed::order(const std::string& file, int line) const
   return found == order_.end() ? std::numeric_limits<std::size_t>::max() : found->second;
 }
 
-std::string At::where() const
-{
-  return fmt::format("{}:{}", file->path(), line().first);
-}
+std::string At::where() const { return fmt::format("{}:{}", file->path(), line().first); }
 
 EditedDeck::EditedDeck(const Scene& scene) : scene_(scene), executed_(scene)
 {
@@ -71,15 +65,9 @@ std::vector<std::string> EditedDeck::words_of(const At& at) const
   return done[0]->words;
 }
 
-void EditedDeck::note(const At& at, const std::string& before, const std::string& after, const std::string& why)
-{
-  changes_.push_back({at.where(), before, after, why});
-}
+void EditedDeck::note(const At& at, const std::string& before, const std::string& after, const std::string& why) { changes_.push_back({at.where(), before, after, why}); }
 
-void EditedDeck::leave(const At& at, const std::string& what)
-{
-  left_.push_back(at.where() + ": " + what);
-}
+void EditedDeck::leave(const At& at, const std::string& what) { left_.push_back(at.where() + ": " + what); }
 
 void EditedDeck::replace(const At& at, const std::string& text, const std::string& why)
 {

@@ -128,9 +128,6 @@ class Reader
 
 }  // namespace
 
-ModelWords model_words(const std::vector<std::string>& words, bool is_wall)
-{
-  return Reader(words, is_wall).read();
-}
+ModelWords model_words(const std::vector<std::string>& words, bool is_wall) { return Reader(words, is_wall).read(); }
 
 }  // namespace granulaw::deck

@@ -93,20 +93,11 @@ std::string with_text(const Word& word, const std::string& text)
   return is_quoted ? word.text[0] + text + word.text[0] : text;
 }
 
-bool is_rounded(const std::string& formula)
-{
-  return formula.starts_with("round(") || formula.starts_with("ceil(") || formula.starts_with("floor(");
-}
+bool is_rounded(const std::string& formula) { return formula.starts_with("round(") || formula.starts_with("ceil(") || formula.starts_with("floor("); }
 
-bool is_average(const Words& words)
-{
-  return words.size() > 6 && words[0] == "fix" && words[3].starts_with("ave/");
-}
+bool is_average(const Words& words) { return words.size() > 6 && words[0] == "fix" && words[3].starts_with("ave/"); }
 
-bool is_definition(const DeckLine& line, const std::string& name)
-{
-  return line.words.size() >= 4 && line.words[0].text == "variable" && line.words[1].text == name;
-}
+bool is_definition(const DeckLine& line, const std::string& name) { return line.words.size() >= 4 && line.words[0].text == "variable" && line.words[1].text == name; }
 
 }  // namespace
 
