@@ -20,6 +20,7 @@
 #include "liggghts_plugin/engine/fix_style.hpp"
 #include "liggghts_plugin/engine/private_members.hpp"
 #include "liggghts_plugin/plan/dry_run.hpp"
+#include "liggghts_plugin/plan/geometry.hpp"
 #include "liggghts_plugin/plan/result_file.hpp"
 #include "liggghts_plugin/plan/sweep.hpp"
 #include "primitive_wall.h"
@@ -63,20 +64,7 @@ namespace lmp = LAMMPS_NS;
 
 Planner* planner = nullptr;
 
-double ball_volume(double radius)
-{
-  return 4.0 / 3.0 * M_PI * radius * radius * radius;
-}
-
-double norm(const std::array<double, 3>& v)
-{
-  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
-double along(const std::array<double, 3>& v, const std::array<double, 3>& axis)
-{
-  return v[0] * axis[0] + v[1] * axis[1] + v[2] * axis[2];
-}
+using deck::ball_volume, deck::dot, deck::norm;
 
 /// Part of a motion that may go against gravity where the deck rounds its numbers.
 constexpr double level = 1e-3;
@@ -436,7 +424,7 @@ void Planner::look_at_meshes(bool moving)
         w.drag_speed = std::max(w.drag_speed, motion.speed());
         const Box::Point up = upward();
         for (const auto& triangle : view.velocities)
-          if (norm(up) > 0 && std::abs(along(triangle[0], up)) > level * motion.speed()) w.lift = w.box.top(up) - w.box.bottom(up);
+          if (norm(up) > 0 && std::abs(dot(triangle[0], up)) > level * motion.speed()) w.lift = w.box.top(up) - w.box.bottom(up);
         continue;
       }
       w.speed = std::max(w.speed, motion.speed());

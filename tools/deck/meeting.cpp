@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "deck/geometry.hpp"
 #include "deck/hertz.hpp"
 #include "deck/plan_options.hpp"
+#include "liggghts_plugin/plan/geometry.hpp"
 
 namespace granulaw::deck {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/geometry.hpp"
+#include "liggghts_plugin/plan/geometry.hpp"
 #include "liggghts_plugin/plan/scene.hpp"
 
 namespace granulaw::deck {

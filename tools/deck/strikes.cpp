@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deck/geometry.hpp"
 #include "deck/plan_options.hpp"
+#include "liggghts_plugin/plan/geometry.hpp"
 
 namespace granulaw::deck {
 

@@ -32,21 +32,15 @@ namespace {
 using namespace granulaw;
 
 constexpr const char* summary =
-    "mpm: contact laws between particles, by the material point method. SI units.
-    "
+    "mpm: contact laws between particles, by the material point method. SI units.\n"
     "First: mpm table materials.toml -o law.h5, then mpm plot law.h5 -o law.png";
 
 /// The commands by groups, a line each: one screen.
 class GroupedHelp final : public CLI::Formatter
 {
-  std::string make_usage(const CLI::App* app, std::string name) const override{return app->get_parent() ? Formatter::make_usage(app, name)
-                                                                                                        : "Usage: mpm COMMAND [OPTIONS], or mpm --version
-                                                                                                          ";
-  }
-
-  std::string make_groups(const CLI::App* app, CLI::AppFormatMode mode) const override
+  std::string make_usage(const CLI::App* app, std::string name) const override
   {
-    return app->get_parent() ? Formatter::make_groups(app, mode) : "";
+    return app->get_parent() ? Formatter::make_usage(app, name) : "Usage: mpm COMMAND [OPTIONS], or mpm --version\n";
   }
 
   std::string make_subcommands(const CLI::App* app, CLI::AppFormatMode) const override
@@ -184,6 +178,7 @@ Outcome run(int argc, char** argv)
   app.formatter(std::make_shared<GroupedHelp>());
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   add_commands(app);
+  for (CLI::Option* own : app.get_options()) own->group("");  // in the line of usage
   try {
     if (const std::string sentence = empty_word(argc, argv); !sentence.empty()) return {2, sentence};
     if (argc > 1) join_ranks(argv[1], runs_on_ranks(argv[1]));

@@ -141,7 +141,9 @@ class Run:
 
     def __init__(self, path, title):
         self.path, self.title = path, title
-        stats = files.read_json(path, series=dict)
+        stats = files.read_json(path)
+        if not isinstance(stats.get("series"), dict):
+            raise files.Unreadable(path, "has no 'series'")
         kinds = {}
         add_run(kinds, path, stats)
         self.kinds = sorted_kinds(kinds)

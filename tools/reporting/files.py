@@ -28,21 +28,14 @@ def find_ending(folder, ending):
     return sorted(found, key=lambda p: -p.stat().st_mtime)
 
 
-def read_json(path, **needed):
-    """The object in a JSON file. `needed`: key = value it must have, or the type of its value."""
+def read_json(path):
+    """The object in a JSON file."""
     try:
         found = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, ValueError) as error:
         raise Unreadable(path, f"not a whole JSON file ({str(error).splitlines()[0]})") from None
     if not isinstance(found, dict):
         raise Unreadable(path, f"holds a {type(found).__name__}, expected an object")
-    for key, want in needed.items():
-        if key not in found:
-            raise Unreadable(path, f"has no '{key}'")
-        if isinstance(want, type) and not isinstance(found[key], want):
-            raise Unreadable(path, f"'{key}' is a {type(found[key]).__name__}, expected {want.__name__}")
-        if not isinstance(want, type) and found[key] != want:
-            raise Unreadable(path, f"'{key}' is {found[key]!r}, expected {want!r}")
     return found
 
 

@@ -1,5 +1,5 @@
 #include "base/larger.hpp"
-#include "deck/geometry.hpp"
+#include "liggghts_plugin/plan/geometry.hpp"
 
 #include <gtest/gtest.h>
 
