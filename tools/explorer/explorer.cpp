@@ -269,14 +269,14 @@ const char* granulaw_open(const double* numbers, int count)
   });
 }
 
-/// Yield stress of drop tests: the object of `mpm calibrate --json` (drops.hpp).
+/// Yield stress of drop tests: the object of `mpm calibrate --json` (request.hpp).
 const char* granulaw_calibrate(const char* request)
 {
   using namespace granulaw;
   return answered([&] { return drops_json(opened(), Json::parse(request)); });
 }
 
-/// Requirements of a bed of these bodies (bed.hpp). `bed_height`: m, beside the state's keys.
+/// Requirements of a bed of these bodies (request.hpp). `bed_height`: m, beside the state's keys.
 const char* granulaw_bed(const char* request)
 {
   using namespace granulaw;
