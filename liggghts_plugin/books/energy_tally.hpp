@@ -48,7 +48,7 @@ class EnergyTally
   {
     ContactStatistics::Pair* counts = nullptr;
     double law_force = 0;         ///< N, of the normal law alone
-    double law_force_behind = 0;  ///< N, the same where the next step begins: a tangential law may change the depth
+    double law_force_after = 0;  ///< N, the same where the next step begins: a tangential law may change the depth
     double deepened = 0;          ///< J, that the law lost and holds more by such a change
     double work = 0;              ///< J, of all but the normal law that stands elsewhere in the statistics
   };
@@ -114,7 +114,7 @@ class EnergyTally
       booked.counts->other_work += (sidata.is_wall || sidata.j < nlocal ? 1.0 : 0.5) * (taken - booked.work);
       share(sidata, other_work, taken - booked.deepened, nlocal);
     }
-    for (int c = 0; c < 3; ++c) last[c] = force[c] + (booked.law_force - booked.law_force_behind) * n[c], last[3 + c] = couple[c];
+    for (int c = 0; c < 3; ++c) last[c] = force[c] + (booked.law_force - booked.law_force_after) * n[c], last[3 + c] = couple[c];
   }
 
  private:

@@ -94,10 +94,10 @@ class ContactCounts
   }
 
   /// Work that the element booked in a step.
-  [[gnu::always_inline]] void book(const SurfacesIntersectData& contact, const Entry& entry, const Ledger& books) const
+  [[gnu::always_inline]] void book(const SurfacesIntersectData& contact, const Entry& entry, const Ledger& ledger) const
   {
     for (const MechanismText& m : mechanisms)
-      if (m.in_statistics && books[m.which] != 0.0) entry.counts->taken[m.which] += weight(contact) * books[m.which];
+      if (m.in_statistics && ledger[m.which] != 0.0) entry.counts->taken[m.which] += weight(contact) * ledger[m.which];
   }
 
   /// A step that takes the contact from the table's end `by` deeper, at the law's force there. `first`: the first one.

@@ -21,20 +21,20 @@
 namespace granulaw::plugin {
 
 /// Gives each value of the list its place in LIGGGHTS's contact history; the place of the first.
-inline int add_history(LIGGGHTS::IContactHistorySetup& history, std::span<const Kept> keeps)
+inline int add_history(LIGGGHTS::IContactHistorySetup& history, std::span<const HistoryValue> history_values)
 {
   int first = -1;
-  for (const Kept& one : keeps)
+  for (const HistoryValue& one : history_values)
     for (std::size_t k = 1; k <= one.values; ++k) {
       const std::string name = one.values == 1 ? std::string(one.name) : fmt::format("{}_{}", one.name, k);
-      const int place = history.add_history_value(name, one.turns_with_exchange ? "1" : "0");
+      const int place = history.add_history_value(name, one.changes_sign ? "1" : "0");
       if (first < 0) first = place;
     }
   return first;
 }
 
 /// The contact element (mpm_core/contact/element.hpp) in LIGGGHTS: takes the motion from LIGGGHTS's contact data, gives it the
-/// forces, keeps the state in its contact history, and counts what the element books. All that is not the law itself.
+/// forces, keeps the state in its contact history, and counts what the element's ledger has. All that is not the law itself.
 ///
 /// The state advances only when the step does (computeflag and shearupdate), and returns to zero when the geometric overlap ends.
 ///
@@ -54,7 +54,7 @@ class ElementHost : public ContactInquiry
 
  public:
   ElementHost(LAMMPS* lmp, LIGGGHTS::IContactHistorySetup& history, cm::ContactModelBase& contact)
-      : lmp_(lmp), history_offset_(add_history(history, Element::keeps))
+      : lmp_(lmp), history_offset_(add_history(history, Element::history_values))
   {
     contact.add_history_offset("delta_max", history_offset_);
     if constexpr (Element::deepens) counts_.keep_largest_at(history.add_history_value("largest_overlap", "0"));
@@ -119,40 +119,40 @@ class ElementHost : public ContactInquiry
     if (contact.contact_flags) *contact.contact_flags |= CONTACT_NORMAL_MODEL;
     const double r_eff = effective_radius(contact);
     const Entry& entry = entry_of(contact);
-    double* const kept = kept_of(contact.contact_history);
+    double* const history = history_of(contact.contact_history);
     if (contact.is_wall && !layout_checked_) [[unlikely]]
       check_layout(contact);
-    if constexpr (!Law::keeps.empty())
+    if constexpr (!Law::history_values.empty())
       if (lmp_->update->ntimestep == first_step_) [[unlikely]]
-        State::forget_derived(kept);  // what a restart brings may be of another law
+        State::forget_derived(history);  // what a restart brings may be of another law
     if (changes_overlap_) [[unlikely]]
-      contact.deltan = changed_overlap(contact, entry, r_eff, kept);
+      contact.deltan = changed_overlap(contact, entry, r_eff, history);
     if (contact.deltan > entry.largest_overlap * r_eff) [[unlikely]]
-      beyond_law(contact, entry, r_eff, State::largest(kept));
+      beyond_law(contact, entry, r_eff, State::largest(history));
     const double shorter = shorter_lever(contact, entry);
     const bool advances = contact.computeflag && contact.shearupdate;
     const ContactMotion moves = motion(contact, r_eff, advances, shorter);
-    Ledger books;
-    Caller<Beside> caller{*this, contact, entry, moves, kept, on_i, on_j, beside, books};
-    const ContactForce force = entry.element.touch(moves, kept, books, caller);
+    Ledger ledger;
+    Caller<Beside> caller{*this, contact, entry, moves, history, on_i, on_j, beside, ledger};
+    const ContactForce force = entry.element.touch(moves, history, ledger, caller);
     add_shear(contact, *lmp_->atom, force.shear, contact.cri - shorter, on_i, on_j);
     if constexpr (Element::deepens) {
       add_normal(contact, force.normal - caller.pushed, on_i, on_j);
       add_couple(contact, force.couple, on_i, on_j);
       if (advances) counts_.reach_further(contact, entry, r_eff);
     }
-    if (advances) counts_.book(contact, entry, books);
+    if (advances) counts_.book(contact, entry, ledger);
     if (energy_) [[unlikely]]
-      book_energy(contact, entry, r_eff, force.law, caller.depth, caller.by_law, books);
+      book_energy(contact, entry, r_eff, force.law, caller.depth, caller.by_law, ledger);
   }
 
   void surfacesClose(cm::SurfacesCloseData& contact) const
   {
     if (contact.contact_flags) *contact.contact_flags &= ~CONTACT_NORMAL_MODEL;
     if (!contact.contact_history) return;
-    double* const kept = kept_of(contact.contact_history);
-    if (State::largest(kept) == 0.0) return;  // near neighbours that never touched: leave their cache lines alone
-    std::fill_n(kept, Element::values, 0.0);
+    double* const history = history_of(contact.contact_history);
+    if (State::largest(history) == 0.0) return;  // near neighbours that never touched: leave their cache lines alone
+    std::fill_n(history, Element::values, 0.0);
     counts_.forget(contact.contact_history);
     for (const int offset : {behind_offset_, crushed_offset_})
       if (offset >= 0) contact.contact_history[offset] = 0.0;
@@ -164,13 +164,13 @@ class ElementHost : public ContactInquiry
   ContactState state(const ContactPlace& contact) const override
   {
     const Law& law = pairs_.of(contact.itype, contact.jtype, contact.radius_i, contact.radius_j).element.normal;
-    const double* const kept = contact.history + history_offset_;
-    const double delta_max = State::largest(kept), impact_overlap = State::impact_overlap(kept),
+    const double* const history = contact.history + history_offset_;
+    const double delta_max = State::largest(history), impact_overlap = State::impact_overlap(history),
                  r_eff = contact.r_eff();
     double copy[State::values];
-    std::copy_n(kept, State::values, copy);
+    std::copy_n(history, State::values, copy);
     const double now = std::max(contact.overlap - (crushed_offset_ >= 0 ? contact.history[crushed_offset_] : 0.0), 0.0);
-    const double overlap = overlap_of_law(law, r_eff, now, kept_compliance(contact.history), copy);
+    const double overlap = overlap_of_law(law, r_eff, now, stored_compliance(contact.history), copy);
     return {law.contact_radius(r_eff, overlap, delta_max, impact_overlap), delta_max,
             law.dissipated(r_eff, 0.0, delta_max, impact_overlap)};
   }
@@ -193,10 +193,10 @@ class ElementHost : public ContactInquiry
     SurfacesIntersectData& contact;
     const Entry& entry;
     const ContactMotion& moves;
-    double* kept;
+    double* history;
     ForceData &on_i, &on_j;
     Beside& beside;
-    const Ledger& books;
+    const Ledger& ledger;
     double pushed = 0, depth = 0, by_law = 0;  // N, m and J, before the tangential law
 
     bool with_stiffness() const { return Radiates<Law> && host.pairs_.radiates(); }
@@ -207,9 +207,9 @@ class ElementHost : public ContactInquiry
       if (host.parts_freely_) [[unlikely]]  // a member: a local flag costs every contact, 2 % of the instructions in a chute
         push = pressing = 0.0, host.parts_freely_ = false;
       host.add_normal(contact, push, on_i, on_j);
-      pushed = push, depth = State::largest(kept), by_law = books[Mechanism::plastic];
+      pushed = push, depth = State::largest(history), by_law = ledger[Mechanism::plastic];
       if constexpr (!std::is_null_pointer_v<Beside>) {
-        const auto [k, dashpot] = entry.shear.contact(entry.element.normal, moves, kept);
+        const auto [k, dashpot] = entry.shear.contact(entry.element.normal, moves, history);
         contact.Fn = push, contact.kt = k, contact.gammat = dashpot;
         contact.kn = now.law / moves.overlap;  // secant: rolling model cdt takes kn*deltan as the force
         beside();
@@ -222,16 +222,16 @@ class ElementHost : public ContactInquiry
   {
     return pairs_.of(contact.itype, contact.jtype, contact.radi, contact.radj);
   }
-  double* kept_of(double* history) const { return history + history_offset_; }
+  double* history_of(double* history) const { return history + history_offset_; }
 
   [[gnu::always_inline]] ContactMotion motion(const SurfacesIntersectData& s, double r_eff, bool advances, double shorter)
   {
     ContactMotion now{{r_eff, s.deltan, -s.vn, advances}, s.meff, lmp_->update->dt, {s.en[0], s.en[1], s.en[2]}, {s.vtr1, s.vtr2, s.vtr3}};
     if constexpr (Element::deepens) {
-      if (std::exchange(held_, false)) now.dt = 0.0;
+      if (std::exchange(at_table_end_, false)) now.dt = 0.0;
       double omega[3];  // walls do not turn
       for (int c = 0; c < 3; ++c) omega[c] = s.omega_i[c] - (s.is_wall ? 0.0 : s.omega_j[c]);
-      now.turn = cross(omega, s.en);
+      now.rolling = cross(omega, s.en);
       if (shorter != 0.0)  // nearer to the centre the spin moves the surface less
         now.slide = sum(now.slide, cross(Vector{s.omega_i[0], s.omega_i[1], s.omega_i[2]}, now.normal), shorter);
     }
@@ -241,8 +241,8 @@ class ElementHost : public ContactInquiry
   /// R - d, with the overlap d of the real contact; LIGGGHTS says R - d/2, which two like bodies have.
   double shorter_lever(const SurfacesIntersectData& s, const Entry& entry) const
   {
-    if constexpr (requires { entry.element.tangential.turns(); })
-      if (s.is_wall && rigid_wall_ && entry.element.tangential.turns()) return s.cri - (s.radi - s.deltan / stretch_);
+    if constexpr (requires { entry.element.tangential.yields(); })
+      if (s.is_wall && rigid_wall_ && entry.element.tangential.yields()) return s.cri - (s.radi - s.deltan / stretch_);
     return 0.0;
   }
 
@@ -276,23 +276,23 @@ class ElementHost : public ContactInquiry
   BeyondRange beyond_range() const { return setup_->options.beyond_range.value_or(BeyondRange::stop); }
 
   /// The law's overlap: without what bodies behind the contact take, and what was crushed.
-  [[gnu::noinline]] double changed_overlap(SurfacesIntersectData sidata, const Entry& entry, double r_eff, double* kept) const
+  [[gnu::noinline]] double changed_overlap(SurfacesIntersectData sidata, const Entry& entry, double r_eff, double* history) const
   {
     double crushed = crushed_offset_ >= 0 ? sidata.contact_history[crushed_offset_] : 0.0;
     double overlap = std::max(sidata.deltan - crushed, 0.0);
     if (behind_offset_ >= 0)
-      overlap = overlap_of_law(entry.element.normal, r_eff, overlap, compliance_behind(sidata, entry, State::largest(kept)), kept);
-    return crushed_offset_ >= 0 && overlap > entry.largest_overlap * r_eff ? crush(sidata, entry, r_eff, overlap, kept) : overlap;
+      overlap = overlap_of_law(entry.element.normal, r_eff, overlap, compliance_behind(sidata, entry, State::largest(history)), history);
+    return crushed_offset_ >= 0 && overlap > entry.largest_overlap * r_eff ? crush(sidata, entry, r_eff, overlap, history) : overlap;
   }
 
   /// Beyond the table's end the force stays: the law's overlap, which is the end. What is beyond is lost for good.
-  double crush(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double overlap, double* kept) const
+  double crush(const SurfacesIntersectData& sidata, const Entry& entry, double r_eff, double overlap, double* history) const
   {
-    const double end = entry.largest_overlap * r_eff, from = State::largest(kept);
+    const double end = entry.largest_overlap * r_eff, from = State::largest(history);
     if (end < 0.0) return overlap;  // there is no law
     double& crushed = sidata.contact_history[crushed_offset_];
     if (sidata.computeflag && sidata.shearupdate) {
-      const double force = entry.element.normal.force(r_eff, end, std::max(from, end), State::impact_overlap(kept), kept + State::own);
+      const double force = entry.element.normal.force(r_eff, end, std::max(from, end), State::impact_overlap(history), history + State::own);
       counts_.crush(sidata, entry, r_eff, force, overlap - end, crushed == 0.0, from == 0.0);
       crushed += overlap - end;
     }
@@ -303,17 +303,17 @@ class ElementHost : public ContactInquiry
   /// force is then a function of its overlap alone, and no closed path gains energy.
   [[gnu::noinline]] double compliance_behind(SurfacesIntersectData sidata, const Entry& entry, double delta_max) const
   {
-    double& kept = sidata.contact_history[behind_offset_];
+    double& history = sidata.contact_history[behind_offset_];
     const Bodies& bodies = setup_->session->bodies;
-    if (delta_max > 0.0) return kept;
+    if (delta_max > 0.0) return history;
     if (!bodies.known() && !sidata.is_non_spherical) return 0.0;
     const auto [i, j] = bodies_at_contact(sidata, bodies, *lmp_->atom);
     double sum = entry.behind_i * reach_behind(i.radius, i.height);
     if (!sidata.is_wall) sum += entry.behind_j * reach_behind(j.radius, j.height);
-    if (sidata.computeflag && sidata.shearupdate) kept = sum;
+    if (sidata.computeflag && sidata.shearupdate) history = sum;
     return sum;
   }
-  double kept_compliance(const double* history) const { return behind_offset_ >= 0 ? history[behind_offset_] : 0.0; }
+  double stored_compliance(const double* history) const { return behind_offset_ >= 0 ? history[behind_offset_] : 0.0; }
 
   /// m/s, for a message.
   double approach(const SurfacesIntersectData& sidata) const
@@ -336,24 +336,24 @@ class ElementHost : public ContactInquiry
   /// Only with `energy on`: the part of the step that the element has booked, for EnergyTally::account, and the contact's energies.
   /// `depth`, `by_law`: depth behind the normal law, and what that lost; the tangential law may have taken the depth further.
   [[gnu::noinline, gnu::cold]] void book_energy(SurfacesIntersectData contact, const Entry& entry, double r_eff, double law_force,
-                                                double depth, double by_law, Ledger books) const
+                                                double depth, double by_law, Ledger ledger) const
   {
     const Law& law = entry.element.normal;
-    double* const kept = kept_of(contact.contact_history);
-    const double now = State::largest(kept), delta = contact.deltan;  // now 0: it begins, in a step that keeps nothing
-    const double latched = now > 0.0 ? State::impact_overlap(kept) : first_impact_overlap(entry, r_eff, contact);
+    double* const history = history_of(contact.contact_history);
+    const double now = State::largest(history), delta = contact.deltan;  // now 0: it begins, in a step that keeps nothing
+    const double latched = now > 0.0 ? State::impact_overlap(history) : first_impact_overlap(entry, r_eff, contact);
     const double share = contact.is_wall ? contact.area_ratio : 1.0, stored = law.stored_energy(r_eff, delta, now, latched);
     EnergyTally::Booked& booked = energy_->booked;
-    booked = {.counts = entry.counts, .law_force = law_force * share, .law_force_behind = law_force * share};
+    booked = {.counts = entry.counts, .law_force = law_force * share, .law_force_after = law_force * share};
     if (now != depth) {
-      booked.law_force_behind = law.force(r_eff, delta, now, latched, kept + State::own) * share;
-      booked.deepened = books[Mechanism::plastic] - by_law + stored - law.stored_energy(r_eff, delta, depth, latched);
+      booked.law_force_after = law.force(r_eff, delta, now, latched, history + State::own) * share;
+      booked.deepened = ledger[Mechanism::plastic] - by_law + stored - law.stored_energy(r_eff, delta, depth, latched);
     }
-    booked.work = booked.deepened + books[Mechanism::waves] + books[Mechanism::shear];
+    booked.work = booked.deepened + ledger[Mechanism::waves] + ledger[Mechanism::shear];
     const int nlocal = lmp_->atom->nlocal;
-    energy_->share(contact, EnergyTally::dissipated, books[Mechanism::plastic], nlocal);
+    energy_->share(contact, EnergyTally::dissipated, ledger[Mechanism::plastic], nlocal);
     if (contact.computeflag)
-      energy_->share(contact, EnergyTally::stored, stored + energy_behind(kept_compliance(contact.contact_history), law_force), nlocal);
+      energy_->share(contact, EnergyTally::stored, stored + energy_behind(stored_compliance(contact.contact_history), law_force), nlocal);
   }
 
   /// A contact deeper than the law's table. One that no motion brought there is given the force of the table's end, or none.
@@ -364,7 +364,7 @@ class ElementHost : public ContactInquiry
       return beyond_table(contact, entry, r_eff);
     }
     contact.deltan = entry.largest_overlap * r_eff;
-    held_ = Element::deepens;
+    at_table_end_ = Element::deepens;
     parts_freely_ = parts_freely(contact, entry, r_eff);
   }
 
@@ -450,7 +450,7 @@ class ElementHost : public ContactInquiry
   DeckUnits units_;
   bool tangential_damping_ = true, no_limit_ = false, elastic_potential_ = false, no_heating_ = false;
   bool layout_checked_ = false;
-  bool held_ = false;          // the contact at hand began beyond the table: its overlap stays at the table's end
+  bool at_table_end_ = false;          // the contact at hand began beyond the table: its overlap stays at the table's end
   bool parts_freely_ = false;  // the contact at hand began beyond the table and gets no force
 };
 

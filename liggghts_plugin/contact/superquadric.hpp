@@ -85,34 +85,32 @@ inline void add_normal_torque(const cm::SurfacesIntersectData& sidata, const dou
 }
 
 /// Adds a shear force (N) and its torques about the centres. `lever`: m, from the centre of a sphere i.
-inline void add_shear(const cm::SurfacesIntersectData& sidata, const LAMMPS_NS::Atom& atom, const Vector& shear, double lever,
-                      cm::ForceData& i_forces, cm::ForceData& j_forces)
+[[gnu::always_inline]] inline void add_shear(const cm::SurfacesIntersectData& sidata, const LAMMPS_NS::Atom& atom, const Vector& shear,
+                                             double lever, cm::ForceData& i_forces, cm::ForceData& j_forces)
 {
-  const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
-  for (int c = 0; c < 3; ++c) {
-    i_forces.delta_F[c] += shear[c] * share;
-    if (!sidata.is_wall) j_forces.delta_F[c] += -shear[c];
-  }
+  // component by component: in a loop whose places are variables the arrays stay in memory
+  const double share = sidata.is_wall ? sidata.area_ratio : 1.0, x = shear[0], y = shear[1], z = shear[2];
+  const auto add = [](double (&to)[3], double a, double b, double c) { to[0] += a, to[1] += b, to[2] += c; };
+  add(i_forces.delta_F, x * share, y * share, z * share);
+  if (!sidata.is_wall) add(j_forces.delta_F, -x, -y, -z);
 #ifdef SUPERQUADRIC_ACTIVE_FLAG
   if (sidata.is_non_spherical) {
     const auto torque = [&](int particle) {
       double arm[3];
       for (int c = 0; c < 3; ++c) arm[c] = sidata.contact_point[c] - atom.x[particle][c];
-      return cross(arm, shear);
+      return times(cross(arm, shear), share);
     };
-    for (int c = 0; c < 3; ++c) {
-      i_forces.delta_torque[c] += torque(sidata.i)[c] * share;
-      if (!sidata.is_wall) j_forces.delta_torque[c] -= torque(sidata.j)[c];
-    }
-    return;
+    const Vector on_i = torque(sidata.i);
+    add(i_forces.delta_torque, on_i[0], on_i[1], on_i[2]);
+    if (sidata.is_wall) return;
+    const Vector on_j = torque(sidata.j);
+    return add(j_forces.delta_torque, -on_j[0], -on_j[1], -on_j[2]);
   }
 #endif
   (void)atom;
   const Vector torque = cross(sidata.en, shear);
-  for (int c = 0; c < 3; ++c) {
-    i_forces.delta_torque[c] += -lever * torque[c] * share;
-    if (!sidata.is_wall) j_forces.delta_torque[c] += -sidata.crj * torque[c];
-  }
+  add(i_forces.delta_torque, -lever * torque[0] * share, -lever * torque[1] * share, -lever * torque[2] * share);
+  if (!sidata.is_wall) add(j_forces.delta_torque, -sidata.crj * torque[0], -sidata.crj * torque[1], -sidata.crj * torque[2]);
 }
 
 /// Throws Error where a law of one size (`rated`) meets particles that have another radius at each point.

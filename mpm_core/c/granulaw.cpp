@@ -125,10 +125,10 @@ bool has_numbers(const granulaw_motion& m)
 }
 
 template <class Element>
-int advance(const Element& element, std::size_t n, const granulaw_motion* motion, double* kept,
-            granulaw_answer* answer, Ledger& books)
+int advance(const Element& element, std::size_t n, const granulaw_motion* motion, double* history,
+            granulaw_answer* answer, Ledger& ledger)
 {
-  for (std::size_t k = 0; k < n; ++k, kept += Element::values) {
+  for (std::size_t k = 0; k < n; ++k, history += Element::values) {
     const granulaw_motion& m = motion[k];
     if (!has_numbers(m)) return GRANULAW_NO_NUMBER;
     const ContactMotion moves{{m.r_eff, m.overlap, m.approach, !m.asked_again},
@@ -137,10 +137,10 @@ int advance(const Element& element, std::size_t n, const granulaw_motion* motion
                               {m.normal[0], m.normal[1], m.normal[2]},
                               {m.slide[0], m.slide[1], m.slide[2]},
                               {m.turn[0], m.turn[1], m.turn[2]}};
-    const ContactForce force = element.advance(moves, kept, books);
+    const ContactForce force = element.advance(moves, history, ledger);
     answer[k] = {force.normal,
                  force.stiffness,
-                 element.contact_radius(moves, kept),
+                 element.contact_radius(moves, history),
                  {force.shear[0], force.shear[1], force.shear[2]},
                  {force.couple[0], force.couple[1], force.couple[2]}};
   }
@@ -195,8 +195,8 @@ int granulaw_turns(const granulaw_contact_law* contact, size_t place)
   return std::visit(
       [&](const auto& element) {
         std::size_t behind = 0;
-        for (const Kept& one : element.keeps)
-          if (place < (behind += one.values)) return one.turns_with_exchange ? 1 : 0;
+        for (const HistoryValue& one : element.keeps)
+          if (place < (behind += one.values)) return one.changes_sign ? 1 : 0;
         return 0;
       },
       contact->element);
@@ -214,14 +214,14 @@ granulaw_range granulaw_range_of(const granulaw_contact_law* contact, double r_e
 }
 
 int granulaw_advance(const granulaw_contact_law* contact, size_t n, const granulaw_motion* motion,
-                     double* kept, granulaw_answer* answer, double* ledger)
+                     double* history, granulaw_answer* answer, double* ledger)
 {
   if (n == 0) return GRANULAW_OK;
-  if (!contact || !motion || !kept || !answer) return GRANULAW_NO_POINTER;
-  Ledger books;
+  if (!contact || !motion || !history || !answer) return GRANULAW_NO_POINTER;
+  Ledger ledger;
   const int code =
-      std::visit([&](const auto& element) { return advance(element, n, motion, kept, answer, books); },
+      std::visit([&](const auto& element) { return advance(element, n, motion, history, answer, ledger); },
                  contact->element);
-  for (std::size_t k = 0; ledger && k < books.taken.size(); ++k) ledger[k] += books.taken[k];
+  for (std::size_t k = 0; ledger && k < ledger.taken.size(); ++k) ledger[k] += ledger.taken[k];
   return code;
 }

@@ -41,12 +41,12 @@ double overlap_of_law(double overlap, double compliance, double largest, const a
 }
 /// The same of a contact that keeps its state.
 template <NormalLaw Law>
-double overlap_of_law(const Law& law, double r_eff, double overlap, double compliance, double* kept)
+double overlap_of_law(const Law& law, double r_eff, double overlap, double compliance, double* history)
 {
   using State = NormalState<Law>;
-  const double largest = State::largest(kept), latched = State::impact_overlap(kept);
+  const double largest = State::largest(history), latched = State::impact_overlap(history);
   return overlap_of_law(overlap, compliance, largest, [&](double x) {
-    return law.response(r_eff, x, largest, latched, kept + State::own);
+    return law.response(r_eff, x, largest, latched, history + State::own);
   });
 }
 

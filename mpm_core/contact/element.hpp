@@ -28,7 +28,7 @@ struct ContactForce
 /// Nothing beside the two laws. A piece that stands there (adhesion, a liquid bridge) has the same members.
 struct NothingBeside
 {
-  static constexpr std::array<Kept, 0> keeps{};
+  static constexpr std::array<HistoryValue, 0> history_values{};
   static constexpr bool acts_at_distance = false;  ///< true: it acts before the surfaces have touched
   /// m, gap between the surfaces up to which it acts.
   static double reach(double) { return 0.0; }
@@ -67,8 +67,8 @@ struct ContactElement
 {
   using State = NormalState<Normal>;
   /// All zero in a contact that begins.
-  static constexpr auto keeps = State::keeps + Tangential::keeps + Beside::keeps;
-  static constexpr std::size_t values = values_of(keeps), beside_at = values - values_of(Beside::keeps);
+  static constexpr auto history_values = State::history_values + Tangential::history_values + Beside::history_values;
+  static constexpr std::size_t values = values_of(history_values), beside_at = values - values_of(Beside::history_values);
   /// True if the tangential law takes the depth along: the largest overlap that the normal law keeps is then not the motion's.
   static constexpr bool deepens = requires { requires Tangential::deepens; };
 
@@ -78,59 +78,66 @@ struct ContactElement
   double yield_overlap = 0;  ///< over R*: the normal law's; asked for with damping alone
   [[no_unique_address]] Beside beside{};
 
-  /// `kept`: `values` numbers of this contact. An overlap of 0 or less ends it, unless the piece beside holds it. Adds to `books`.
-  ContactForce advance(const ContactMotion& m, double* kept, Ledger& books) const
+  /// `history`: `values` numbers of this contact. An overlap of 0 or less ends it, unless the piece beside holds it. Adds to `books`.
+  ContactForce advance(const ContactMotion& m, double* history, Ledger& ledger) const
   {
-    return m.overlap > 0 ? touch(m, kept, books, NoCaller{}) : part(m, kept, books);
+    return m.overlap > 0 ? touch(m, history, ledger, NoCaller{}) : part(m, history, ledger);
   }
 
   /// The same of surfaces that touch.
   template <class Caller>
-  [[gnu::always_inline]] ContactForce touch(const ContactMotion& m, double* kept, Ledger& books, Caller&& caller) const
+  [[gnu::always_inline]] ContactForce touch(const ContactMotion& m, double* history, Ledger& ledger, Caller&& caller) const
   {
-    const double before = State::largest(kept), root = std::sqrt(m.r_eff * m.overlap);
-    const NormalForces now = press(m, kept, books, caller);
+    const double before = State::largest(history), root = std::sqrt(m.r_eff * m.overlap);
+    const NormalForces now = press(m, history, ledger, caller);
     const double braking = dashpot(m, before, std::sqrt(root * m.m_eff)) * m.approach;
     // below the residual overlap of a dent nothing touches, and nothing is braked; of an undamped contact the law's force
     // itself, to the bit (std::max gives its first argument where that is no number, for the particle code to find)
     double push = now.law <= 0.0 ? 0.0 : std::max((now.law + now.waves) + braking, 0.0), pull = 0.0;
-    if constexpr (has_beside) pull = beside.advance(normal, m, push, kept, kept + beside_at, books);
+    if constexpr (has_beside) pull = beside.advance(normal, m, push, history, history + beside_at, ledger);
     double pressing = has_beside ? push + pull : push;
     caller.press(now, push, pressing);
     if (Radiates<Normal> && m.advances && caller.with_stiffness())
-      books[Mechanism::waves] += work_of_waves(now.waves, m.approach, push, m.m_eff, m.dt);
-    const double depth = State::largest(kept);
-    const Grip grip = tangential.advance(normal, m, push, pressing, kept, kept + State::values, books);
+      ledger[Mechanism::waves] += work_of_waves(now.waves, m.approach, push, m.m_eff, m.dt);
+    const double depth = State::largest(history);
+    const auto along = tangential.advance(normal, m, push, pressing, history, history + State::values, ledger);
     if constexpr (deepens)  // a contact that goes deeper is not elastic, though its overlap is less than its depth
-      if (State::largest(kept) > depth && m.approach > 0.0) push = std::max(push - braking, 0.0);
-    return {has_beside ? push + pull : push, now.law, now.stiffness, grip.force, grip.couple};
+      if (State::largest(history) > depth && m.approach > 0.0) push = std::max(push - braking, 0.0);
+    ContactForce answer{.normal = has_beside ? push + pull : push, .law = now.law, .stiffness = now.stiffness};
+    // component by component: a copy of the whole would wait in memory for its parts
+    const auto set = [](Vector& to, const Vector& v) { to[0] = v[0], to[1] = v[1], to[2] = v[2]; };
+    if constexpr (std::same_as<decltype(along), const Vector>)
+      set(answer.shear, along);
+    else
+      set(answer.shear, along.force), set(answer.couple, along.couple);
+    return answer;
   }
 
   /// m, of the circle of contact, of the real, unstretched contact.
-  double contact_radius(const NormalMotion& m, const double* kept) const
+  double contact_radius(const NormalMotion& m, const double* history) const
   {
     if (!(m.overlap > 0)) return 0.0;
-    return normal.contact_radius(m.r_eff, m.overlap, State::largest(kept), State::impact_overlap(kept));
+    return normal.contact_radius(m.r_eff, m.overlap, State::largest(history), State::impact_overlap(history));
   }
 
  private:
   static constexpr bool has_beside = !std::same_as<Beside, NothingBeside>;
 
   /// Surfaces that do not touch.
-  ContactForce part(const ContactMotion& m, double* kept, Ledger& books) const
+  ContactForce part(const ContactMotion& m, double* history, Ledger& ledger) const
   {
-    if (beside.holds(kept + beside_at)) return {.normal = beside.advance(normal, m, 0.0, kept, kept + beside_at, books)};
-    if (m.advances) std::fill_n(kept, values, 0.0);
+    if (beside.holds(history + beside_at)) return {.normal = beside.advance(normal, m, 0.0, history, history + beside_at, ledger)};
+    if (m.advances) std::fill_n(history, values, 0.0);
     return {};
   }
 
   /// The step of the normal law.
   template <class Caller>
-  [[gnu::always_inline]] NormalForces press(const ContactMotion& m, double* kept, Ledger& books, Caller&& caller) const
+  [[gnu::always_inline]] NormalForces press(const ContactMotion& m, double* history, Ledger& ledger, Caller&& caller) const
   {
-    double* const own = kept + State::own;
-    const double delta_max = State::largest(kept);
-    double impact_overlap = State::impact_overlap(kept);
+    double* const own = history + State::own;
+    const double delta_max = State::largest(history);
+    double impact_overlap = State::impact_overlap(history);
     const auto with_slope = [&] {
       const auto [force, k] = normal.response(m.r_eff, m.overlap, delta_max, impact_overlap, own);
       NormalForces now{.law = force, .stiffness = k};
@@ -145,10 +152,10 @@ struct ContactElement
     const NormalForces now =
         caller.with_stiffness() ? with_slope() : NormalForces{loading_of(normal, m.r_eff, m.overlap, delta_max, impact_overlap, own)};
     if (m.advances) {
-      if constexpr (LatchesImpact<Normal>) kept[1] = impact_overlap;
+      if constexpr (LatchesImpact<Normal>) history[1] = impact_overlap;
       if (caller.grows(delta_max, impact_overlap))
-        books[Mechanism::plastic] += dissipation_of(normal, m.r_eff, delta_max, m.overlap, impact_overlap, own);
-      kept[0] = m.overlap;
+        ledger[Mechanism::plastic] += dissipation_of(normal, m.r_eff, delta_max, m.overlap, impact_overlap, own);
+      history[0] = m.overlap;
     }
     return now;
   }

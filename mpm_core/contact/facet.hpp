@@ -57,13 +57,13 @@ struct ShearYield
 struct FacetMotion
 {
   double radius, overlap, deepening;  // R*
-  Vector slide, turn;
+  Vector slide, rolling;
 
   /// One of `all` equal parts.
   FacetMotion part(int which, int all) const
   {
     const double one = 1.0 / all;
-    return {radius, overlap - deepening * (all - which) * one, deepening * one, times(slide, one), times(turn, one)};
+    return {radius, overlap - deepening * (all - which) * one, deepening * one, times(slide, one), times(rolling, one)};
   }
 };
 
@@ -140,7 +140,7 @@ struct FacetLoads
   double taken(const FacetLoads& before, const FacetMotion& step) const
   {
     return before.energy - energy + 0.5 * ((before.force + force) * step.deepening + dot(sum(before.pull, pull), step.slide) +
-                                           dot(sum(before.moment, moment), step.turn));
+                                           dot(sum(before.moment, moment), step.rolling));
   }
 };
 
@@ -157,14 +157,14 @@ struct FacetTrial : Facet<Dent>
   double strength = 0;  ///< N, T_0
   bool yields = false;
 
-  FacetTrial(const Dent& below, const FacetMaterial& material, const FacetMemory& held, const FacetMotion& step)
-      : Facet<Dent>(below, step.radius, sum(held.tilt, step.turn))
+  FacetTrial(const Dent& below, const FacetMaterial& material, const FacetMemory& last, const FacetMotion& step)
+      : Facet<Dent>(below, step.radius, sum(last.tilt, step.rolling))
   {
-    if (!(held.stiffness > 0)) end_tilt();
+    if (!(last.stiffness > 0)) end_tilt();
     this->press(step.overlap, material.shear_stiffness);
     if (!this->touches()) return;
     const Dent& dent = this->dent;
-    this->pull = held.stretched(step.slide, this->stiffness);
+    this->pull = last.stretched(step.slide, this->stiffness);
     spring = pulls = norm(this->pull);
     if (const double most = material.friction * this->force; spring > most)
       this->pull = times(this->pull, most / spring), pulls = most;
@@ -172,7 +172,7 @@ struct FacetTrial : Facet<Dent>
     lean = sum(this->tilt, this->pull, shift), leans = norm(lean);
     bears = bearing(leans);
     const double area = dent.radius * dent.radius;
-    strength = material.strength(dent.steepness, area * this->part, held.sheared) * area *
+    strength = material.strength(dent.steepness, area * this->part, last.sheared) * area *
                std::min(this->part, std::max(bears, least_bearing));
     const double q = pulls / strength;
     yields = q > 1.0 + tolerance || this->force > (bears * ShearYield::share_at(q * q) + tolerance) * dent.force;
@@ -205,21 +205,21 @@ class FacetFlow
   double pull = 0;    ///< N, T
   double slid = 0;    ///< m, sliding of the flow
 
-  FacetFlow(const FacetTrial<Dent>& facet, const FacetMaterial& material, const FacetMemory& held, const FacetMotion& step)
+  FacetFlow(const FacetTrial<Dent>& facet, const FacetMaterial& material, const FacetMemory& last, const FacetMotion& step)
       : facet_(facet), friction_(material.friction), per_strength_(1.0 / facet.strength)
   {
     const Dent& dent = facet.dent;
     const double a_m = dent.radius, a = a_m * std::sqrt(facet.part);
     const double give = facet.stiffness * dent.force * per_strength_ * per_strength_;
-    before_ = std::min(1.0, norm(held.stretched({}, facet.stiffness)) * per_strength_);
+    before_ = std::min(1.0, norm(last.stretched({}, facet.stiffness)) * per_strength_);
     tried_ = facet.spring * per_strength_;
-    give_ = give, begun_ = give * std::max(0.0, dent.depth - held.depth);
+    give_ = give, begun_ = give * std::max(0.0, dent.depth - last.depth);
     // the tilt at which phi' is 0
     const Vector upright = times(facet.pull, -facet.shift * std::min(1.0, facet.strength / facet.pulls));
     const Vector away = sum(facet.tilt, upright, -1.0);
     if (!(step.deepening >= a * norm(away))) {
       const Vector toward = facet.leans > 0.0 ? times(facet.lean, 1.0 / facet.leans) : Vector{};
-      const double rolled = dot(step.turn, toward);
+      const double rolled = dot(step.rolling, toward);
       const Path segment = segment_of(a_m, std::max(0.0, facet.leans - std::max(0.0, rolled)), rolled > 0 ? -step.deepening / (a * rolled) : -1.0);
       const double amount = move(segment, facet.force, facet.bears);
       if (amount < facet.leans) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "contact/kept.hpp"
+#include "contact/history.hpp"
 
 // The normal law of a contact.
 namespace granulaw {
@@ -32,19 +32,19 @@ struct Response
 ///   delta_max       m, >= 0: largest overlap since first touch, before this step; 0 in the first step
 ///   speed           m/s, of approach along the normal; positive: the surfaces come nearer
 ///   impact_overlap  X: what impact_overlap() gave at first touch; 0 where the law latches nothing
-///   kept            values of `keeps`
+///   history            values of `history_values`
 template <class Law>
 concept NormalLaw =
     std::default_initializable<Law> && std::copyable<Law> &&
     requires(const Law law, double r_eff, double m_eff, double delta, double delta_max, double speed,
-             double impact_overlap, double* kept) {
+             double impact_overlap, double* history) {
   /// The law's own values of a contact, beside its largest overlap and X. They are 0 in a new contact, and the first
   /// may be set to 0 at any time: the law then finds what it wrote there again from the other arguments.
-  { std::span<const Kept>(Law::keeps) };
+  { std::span<const HistoryValue>(Law::history_values) };
   /// N, >= 0, pushes the bodies apart.
-  { law.force(r_eff, delta, delta_max, impact_overlap, kept) } -> std::same_as<double>;
+  { law.force(r_eff, delta, delta_max, impact_overlap, history) } -> std::same_as<double>;
   /// force(), to the bit, and its slope.
-  { law.response(r_eff, delta, delta_max, impact_overlap, kept) } -> std::same_as<Response>;
+  { law.response(r_eff, delta, delta_max, impact_overlap, history) } -> std::same_as<Response>;
   /// m, >= 0: radius of the circle of contact, of the real, unstretched contact.
   { law.contact_radius(r_eff, delta, delta_max, impact_overlap) } -> std::same_as<double>;
   /// Overlap/R* of first yield; infinity: never. Contacts that came no deeper are damped (`elasticDamping`).
@@ -81,11 +81,11 @@ concept LatchesImpact = requires(const Law law, double r_eff, double m_eff, doub
 
 /// A law with a shorter way for a contact that goes deeper than it ever was (delta >= delta_max).
 template <class Law>
-concept HasLoading = requires(const Law law, double r_eff, double delta, double from, double impact_overlap, double* kept) {
+concept HasLoading = requires(const Law law, double r_eff, double delta, double from, double impact_overlap, double* history) {
   /// force(), to the bit.
   { law.loading(r_eff, delta, impact_overlap) } -> std::same_as<double>;
-  /// dissipated() but for rounding. `kept` is as after force() at `from`, and may be left as it helps force() below `delta`.
-  { law.grow(r_eff, from, delta, impact_overlap, kept) } -> std::same_as<double>;
+  /// dissipated() but for rounding. `history` is as after force() at `from`, and may be left as it helps force() below `delta`.
+  { law.grow(r_eff, from, delta, impact_overlap, history) } -> std::same_as<double>;
 };
 
 /// A law that lets waves take a part: they act as a dashpot F_waves = C K^2 v, v the approach speed, K the law's own
@@ -102,16 +102,16 @@ concept Radiates = requires(const Law law) {
 /// one.
 template <class Law>
 double loading_of(const Law& law, double r_eff, double delta, double delta_max, double impact_overlap,
-                  double* kept)
+                  double* history)
 {
   if constexpr (HasLoading<Law>) return law.loading(r_eff, delta, impact_overlap);
-  return law.force(r_eff, delta, delta_max, impact_overlap, kept);
+  return law.force(r_eff, delta, delta_max, impact_overlap, history);
 }
 template <class Law>
 double dissipation_of(const Law& law, double r_eff, double from, double to, double impact_overlap,
-                      double* kept)
+                      double* history)
 {
-  if constexpr (HasLoading<Law>) return law.grow(r_eff, from, to, impact_overlap, kept);
+  if constexpr (HasLoading<Law>) return law.grow(r_eff, from, to, impact_overlap, history);
   return law.dissipated(r_eff, from, to, impact_overlap);
 }
 
@@ -120,22 +120,22 @@ double dissipation_of(const Law& law, double r_eff, double from, double to, doub
 template <NormalLaw Law>
 struct NormalState
 {
-  static constexpr auto keeps = [] {
+  static constexpr auto history_values = [] {
     if constexpr (LatchesImpact<Law>)
-      return std::array{Kept{"delta_max"}, Kept{"impact_overlap"}} + Law::keeps;
+      return std::array{HistoryValue{"delta_max"}, HistoryValue{"impact_overlap"}} + Law::history_values;
     else
-      return std::array{Kept{"delta_max"}} + Law::keeps;
+      return std::array{HistoryValue{"delta_max"}} + Law::history_values;
   }();
-  static constexpr std::size_t own = LatchesImpact<Law> ? 2 : 1, values = values_of(keeps);
+  static constexpr std::size_t own = LatchesImpact<Law> ? 2 : 1, values = values_of(history_values);
 
-  static double largest(const double* kept) { return kept[0]; }
-  static double impact_overlap(const double* kept) { return LatchesImpact<Law> ? kept[1] : 0.0; }
+  static double largest(const double* history) { return history[0]; }
+  static double impact_overlap(const double* history) { return LatchesImpact<Law> ? history[1] : 0.0; }
   /// Resets the values that follow from the others and from the law, for a law that may have changed.
-  static void forget_derived(double* kept)
+  static void forget_derived(double* history)
   {
-    for (const Kept& one : keeps) {
-      if (one.derived) std::fill_n(kept, one.values, 0.0);
-      kept += one.values;
+    for (const HistoryValue& one : history_values) {
+      if (one.derived) std::fill_n(history, one.values, 0.0);
+      history += one.values;
     }
   }
 };
@@ -146,7 +146,7 @@ struct NormalMotion
   double r_eff;     ///< m
   double overlap;   ///< m, > 0
   double approach;  ///< m/s, positive: the surfaces come nearer
-  bool advances;    ///< false: the force is asked for again, and nothing is kept or booked
+  bool advances;    ///< false: the force is asked for again, and nothing is stored or booked
 };
 
 /// Answer of a normal law to a step.
@@ -160,7 +160,7 @@ struct NormalForces
 /// its contacts keep their largest overlap alone.
 struct FormulaContact
 {
-  static constexpr std::array<Kept, 0> keeps{};
+  static constexpr std::array<HistoryValue, 0> history_values{};
   static double max_speed(double, double) { return std::numeric_limits<double>::infinity(); }
   static double min_speed(double, double) { return 0.0; }
   static double damage_number_per_speed2() { return 0.0; }

@@ -46,12 +46,12 @@ class PlasticShear
 {
  public:
   static constexpr bool deepens = true;
-  static constexpr std::array keeps{
-      Kept{.name = "shear", .values = 3, .turns_with_exchange = true},  // N, on j, of the real contact; elastic: m
-      Kept{.name = "shear_stiffness"},                                  // N/m, of the last step
-      Kept{.name = "tilt", .values = 3},  // rad, in the direction that i rolls: the same for j
-      Kept{.name = "sheared"},            // m, sliding of the flow
-      Kept{.name = "depth"}};             // m, of the last step: the normal law has taken it along since where it loads
+  static constexpr std::array history_values{
+      HistoryValue{.name = "shear", .values = 3, .changes_sign = true},  // N, on j, of the real contact; elastic: m
+      HistoryValue{.name = "shear_stiffness"},                                  // N/m, of the last step
+      HistoryValue{.name = "tilt", .values = 3},  // rad, in the direction that i rolls: the same for j
+      HistoryValue{.name = "sheared"},            // m, sliding of the flow
+      HistoryValue{.name = "depth"}};             // m, of the last step: the normal law has taken it along since where it loads
 
   PlasticShear() = default;
   /// `spring`: LIGGGHTS's, stretched as the law is; of it the friction, and all for a body that does not yield.
@@ -66,59 +66,59 @@ class PlasticShear
   }
 
   /// False: the body is elastic, and nothing but LIGGGHTS's spring acts.
-  bool turns() const { return std::isfinite(material_.flow_stress.yield); }
+  bool yields() const { return std::isfinite(material_.flow_stress.yield); }
 
-  /// True of a contact that never yielded: it is held, by a spring.
+  /// True of a contact that never yielded: a spring.
   template <class Normal>
-  bool holds(const Normal& law, double r_eff, double deepest) const
+  bool is_elastic(const Normal& law, double r_eff, double deepest) const
   {
-    return !turns() || deepest <= law.yield_overlap() * r_eff;
+    return !yields() || deepest <= law.yield_overlap() * r_eff;
   }
-  /// N, shear on body i of a contact that holds.
-  Vector hold(const ContactMotion& m, double pressing, double deepest, double* kept, Ledger& books) const
+  /// N, shear on body i of such a contact.
+  Vector elastic_step(const ContactMotion& m, double pressing, double deepest, double* history, Ledger& ledger) const
   {
     const FacetMotion step = motion(m);
-    const FacetMemory held = read(kept, m.normal);
+    const FacetMemory last = read(history, m.normal);
     const double k = material_.shear_stiffness * std::sqrt(m.r_eff * step.overlap);  // Hertz's radius
-    Vector pulls = held.stretched(step.slide, k), braking{};
+    Vector pulls = last.stretched(step.slide, k), braking{};
     const double pull = norm(pulls), most = material_.friction * (std::abs(pressing) * stretch_);
     if (pull > most)
       pulls = times(pulls, most / pull);
     else
       braking = times(m.slide, 2.0 * damping_ratio_ * std::sqrt(k * m.m_eff));
     if (m.advances) {
-      write({pulls, k, {}, held.sheared, deepest * per_stretch_}, kept);
-      books[Mechanism::friction] += held.taken(step.slide, pulls, k) + dot(braking, step.slide);
+      write({pulls, k, {}, last.sheared, deepest * per_stretch_}, history);
+      ledger[Mechanism::friction] += last.taken(step.slide, pulls, k) + dot(braking, step.slide);
     }
     return times(sum(pulls, braking), -per_stretch_);
   }
 
   template <class Normal>
-  Grip advance(const Normal& law, const ContactMotion& m, double& force, double pressing, double* normal_kept, double* kept,
-               Ledger& books) const
+  TangentialForce advance(const Normal& law, const ContactMotion& m, double& force, double pressing, double* normal_history, double* history,
+               Ledger& ledger) const
   {
-    if (!turns()) return elastic_.advance(law, m, force, pressing, normal_kept, kept, books);
-    if (holds(law, m.r_eff, normal_kept[0])) return hold(m, pressing, normal_kept[0], kept, books);
+    if (!yields()) return elastic_.advance(law, m, force, pressing, normal_history, history, ledger);
+    if (is_elastic(law, m.r_eff, normal_history[0])) return elastic_step(m, pressing, normal_history[0], history, ledger);
     const FacetMotion step = motion(m);
-    const FacetMemory held = read(kept, m.normal);
-    const double latched = NormalState<Normal>::impact_overlap(normal_kept);
-    const auto dent = law.dent(m.r_eff, normal_kept[0] * per_stretch_, latched, normal_kept + NormalState<Normal>::own);
-    const FacetTrial trial(dent, material_, held, step);
-    if (trial.yields) return flow(law, trial, m, step, held, force, normal_kept, kept, books);
+    const FacetMemory last = read(history, m.normal);
+    const double latched = NormalState<Normal>::impact_overlap(normal_history);
+    const auto dent = law.dent(m.r_eff, normal_history[0] * per_stretch_, latched, normal_history + NormalState<Normal>::own);
+    const FacetTrial trial(dent, material_, last, step);
+    if (trial.yields) return flow(law, trial, m, step, last, force, normal_history, history, ledger);
     if (m.advances) {
-      write(trial.memory(held.sheared), kept);
-      books[Mechanism::friction] += trial.touches() ? held.taken(step.slide, trial.pull, trial.stiffness) : held.spring_energy();
+      write(trial.memory(last.sheared), history);
+      ledger[Mechanism::friction] += trial.touches() ? last.taken(step.slide, trial.pull, trial.stiffness) : last.spring_energy();
     }
-    return grip(trial, m, dent.force_at(step.overlap), force);
+    return force_of(trial, m, dent.force_at(step.overlap), force);
   }
 
  private:
-  /// Grip of a facet; `force` changes by what tilt and flow take from the law's `before`.
+  /// TangentialForce of a facet; `force` changes by what tilt and flow take from the law's `before`.
   template <class Dent>
-  Grip grip(const Facet<Dent>& now, const ContactMotion& m, double before, double& force) const
+  TangentialForce force_of(const Facet<Dent>& now, const ContactMotion& m, double before, double& force) const
   {
     force = std::max(force + (now.force - before) * per_stretch_, 0.0);  // keeps what is no number
-    Grip answer;
+    TangentialForce answer;
     answer.force = times(now.pull, -per_stretch_);
     answer.couple = times(cross(m.normal, now.moment()), -per_stretch_);
     return answer;
@@ -126,24 +126,24 @@ class PlasticShear
 
   /// A step in which the contact yields. Not inlined, and by value: most contacts of a loop are elastic, in registers.
   template <class Normal, class Dent>
-  [[gnu::noinline]] Grip flow(const Normal& law, FacetTrial<Dent> trial, ContactMotion m, FacetMotion step, FacetMemory held,
-                              double& force, double* normal_kept, double* kept, Ledger& books) const
+  [[gnu::noinline]] TangentialForce flow(const Normal& law, FacetTrial<Dent> trial, ContactMotion m, FacetMotion step, FacetMemory last,
+                              double& force, double* normal_history, double* history, Ledger& ledger) const
   {
-    double* const own = normal_kept + NormalState<Normal>::own;
-    const double latched = NormalState<Normal>::impact_overlap(normal_kept), before = trial.dent.force_at(step.overlap);
+    double* const own = normal_history + NormalState<Normal>::own;
+    const double latched = NormalState<Normal>::impact_overlap(normal_history), before = trial.dent.force_at(step.overlap);
     const Dent pressed = trial.dent;  // by the normal law, which has booked its loss
     double taken = 0, rubbed = 0;
-    FacetLoads loads = loads_before(law, pressed, latched, step, held, taken);
+    FacetLoads loads = loads_before(law, pressed, latched, step, last, taken);
     Facet<Dent> now = trial;
     const int parts = parts_of(step, pressed);
     for (int part = 1; part <= parts; ++part) {
       const FacetMotion some = parts > 1 ? step.part(part, parts) : step;
       if (parts > 1)
-        trial = FacetTrial(law.dent(m.r_eff, std::max(held.depth, some.overlap), latched, own), material_, held, some);
+        trial = FacetTrial(law.dent(m.r_eff, std::max(last.depth, some.overlap), latched, own), material_, last, some);
       now = trial;
       double slid = 0;
       if (trial.yields) {
-        const FacetFlow flow(trial, material_, held, some);
+        const FacetFlow flow(trial, material_, last, some);
         slid = flow.slid;
         now = Facet<Dent>(law.dent(m.r_eff, std::max(trial.dent.depth + flow.deeper, some.overlap), latched, own), m.r_eff,
                           sum(trial.tilt, flow.turned));
@@ -155,32 +155,32 @@ class PlasticShear
       }
       const FacetLoads then(now);
       taken += then.taken(loads, some);
-      loads = then, held = now.memory(held.sheared + slid);
+      loads = then, last = now.memory(last.sheared + slid);
     }
     if (m.advances) {
-      write(held, kept);
-      normal_kept[0] = held.depth * stretch_;
+      write(last, history);
+      normal_history[0] = last.depth * stretch_;
       const double lost = lost_between(pressed, now.dent);
-      books[Mechanism::plastic] += lost;
-      books[Mechanism::friction] += rubbed;
-      books[Mechanism::shear] += taken - rubbed - lost;
+      ledger[Mechanism::plastic] += lost;
+      ledger[Mechanism::friction] += rubbed;
+      ledger[Mechanism::shear] += taken - rubbed - lost;
     }
-    return grip(now, m, before, force);
+    return force_of(now, m, before, force);
   }
 
   /// Loads before the step: the spring's stiffness says how much of the dent bore. `taken`: less what the normal law has lost
   /// since.
   template <class Normal, class Dent>
-  FacetLoads loads_before(const Normal& law, const Dent& pressed, double latched, const FacetMotion& step, const FacetMemory& held,
+  FacetLoads loads_before(const Normal& law, const Dent& pressed, double latched, const FacetMotion& step, const FacetMemory& last,
                           double& taken) const
   {
-    if (!(held.stiffness > 0)) return {};
-    const bool elastic = held.depth * stretch_ <= law.yield_overlap() * step.radius;  // it had no dent
-    const double depth = elastic ? std::clamp(step.overlap - step.deepening, 0.01 * held.depth, held.depth) : held.depth;
-    Facet<Dent> state(depth == pressed.depth ? pressed : law.dent(step.radius, depth, latched), step.radius, held.tilt);
-    const double root = held.stiffness / (material_.shear_stiffness * state.dent.radius);
+    if (!(last.stiffness > 0)) return {};
+    const bool elastic = last.depth * stretch_ <= law.yield_overlap() * step.radius;  // it had no dent
+    const double depth = elastic ? std::clamp(step.overlap - step.deepening, 0.01 * last.depth, last.depth) : last.depth;
+    Facet<Dent> state(depth == pressed.depth ? pressed : law.dent(step.radius, depth, latched), step.radius, last.tilt);
+    const double root = last.stiffness / (material_.shear_stiffness * state.dent.radius);
     state.press_to(elastic ? 1.0 : root * root, material_.shear_stiffness);
-    state.pull = held.pull;
+    state.pull = last.pull;
     if (depth != pressed.depth) taken -= lost_between(state.dent, pressed);
     return FacetLoads(state);
   }
@@ -197,7 +197,7 @@ class PlasticShear
   static int parts_of(const FacetMotion& step, const Dent& dent)
   {
     constexpr double finest = 0.005, most = 16, deep = 0.1;
-    const double moves = std::max(std::abs(step.deepening), dent.radius * norm(step.turn)) / (finest * dent.depth);
+    const double moves = std::max(std::abs(step.deepening), dent.radius * norm(step.rolling)) / (finest * dent.depth);
     return static_cast<int>(std::max(1.0, std::ceil(std::min(most, moves) * std::min(1.0, dent.depth / (deep * step.radius)))));
   }
 
@@ -209,23 +209,23 @@ class PlasticShear
             .overlap = m.overlap * per_stretch_,
             .deepening = m.approach * time,
             .slide = times(m.slide, time),
-            .turn = times(m.turn, time)};
+            .rolling = times(m.rolling, time)};
   }
 
-  /// `keeps`, turned with the contact.
-  static FacetMemory read(const double* kept, const Vector& normal)
+  /// The history, turned with the contact.
+  static FacetMemory read(const double* history, const Vector& normal)
   {
-    FacetMemory held{{kept[0], kept[1], kept[2]}, kept[3], {kept[4], kept[5], kept[6]}, kept[7], kept[8]};
-    held.pull = sum(held.pull, normal, -dot(held.pull, normal));
-    held.tilt = sum(held.tilt, normal, -dot(held.tilt, normal));
-    return held;
+    FacetMemory last{{history[0], history[1], history[2]}, history[3], {history[4], history[5], history[6]}, history[7], history[8]};
+    last.pull = sum(last.pull, normal, -dot(last.pull, normal));
+    last.tilt = sum(last.tilt, normal, -dot(last.tilt, normal));
+    return last;
   }
-  static void write(const FacetMemory& held, double* kept)
+  static void write(const FacetMemory& last, double* history)
   {
-    std::copy_n(held.pull.begin(), 3, kept);
-    kept[3] = held.stiffness;
-    std::copy_n(held.tilt.begin(), 3, kept + 4);
-    kept[7] = held.sheared, kept[8] = held.depth;
+    std::copy_n(last.pull.begin(), 3, history);
+    history[3] = last.stiffness;
+    std::copy_n(last.tilt.begin(), 3, history + 4);
+    history[7] = last.sheared, history[8] = last.depth;
   }
 
   Spring elastic_;  // of a body that does not yield

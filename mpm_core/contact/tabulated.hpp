@@ -59,9 +59,9 @@ struct Tabulated
   double per_stretch = 1;  // 1/S
   Scale scale;
 
-  static constexpr std::array keeps{Kept{.name = "turn_overlap", .derived = true},
-                                    Kept{.name = "turn", .values = 4, .derived = true}};
-  static_assert(sizeof(Reversal) == values_of(keeps) * sizeof(double));
+  static constexpr std::array history_values{HistoryValue{.name = "reversal_overlap", .derived = true},
+                                    HistoryValue{.name = "reversal", .values = 4, .derived = true}};
+  static_assert(sizeof(Reversal) == values_of(history_values) * sizeof(double));
 
   Tabulated() = default;
   Tabulated(const PairContact& pair, const ImpactMeasure& impacts, const Scale& caller)
@@ -77,21 +77,21 @@ struct Tabulated
   {
   }
 
-  double force(double r_eff, double delta, double delta_max, double impact_overlap, double* kept) const
+  double force(double r_eff, double delta, double delta_max, double impact_overlap, double* history) const
   {
     const double per_length = per_lambda / r_eff;
     const double x = delta * per_length, x_max = delta_max * per_length;
     const double unit = force_scale * r_eff * r_eff;
     if (!curve->unloads(x, x_max)) return unit * curve->force(x, impact_overlap);
-    return unit * reversal(x_max, impact_overlap, kept).force(x);
+    return unit * reversal(x_max, impact_overlap, history).force(x);
   }
-  Response response(double r_eff, double delta, double delta_max, double impact_overlap, double* kept) const
+  Response response(double r_eff, double delta, double delta_max, double impact_overlap, double* history) const
   {
     const double per_length = per_lambda / r_eff;
     const double x = delta * per_length, x_max = delta_max * per_length;
     const double unit = force_scale * r_eff * r_eff;
     if (curve->unloads(x, x_max)) {
-      const Reversal back = reversal(x_max, impact_overlap, kept);
+      const Reversal back = reversal(x_max, impact_overlap, history);
       const double u = back.part(x);
       if (u <= 0.0) return {};
       // what is known first is multiplied first: where waves act, the contact's force waits for the stiffness
@@ -105,14 +105,14 @@ struct Tabulated
   {
     return force_scale * r_eff * r_eff * curve->force(delta * (per_lambda / r_eff), impact_overlap);
   }
-  double grow(double r_eff, double from, double to, double impact_overlap, double* kept) const
+  double grow(double r_eff, double from, double to, double impact_overlap, double* history) const
   {
     const double per_length = per_lambda / r_eff, before = from * per_length, after = to * per_length;
     if (!curve->unloads(0.0, after)) return 0.0;
-    const double spent = before > 0.0 && kept[0] == before ? curve->work(before, impact_overlap) - kept_reversal(kept).work()
+    const double spent = before > 0.0 && history[0] == before ? curve->work(before, impact_overlap) - stored_reversal(history).work()
                                                            : curve->lost(before, impact_overlap);
     const Curve::Top top = curve->top(after, impact_overlap);
-    keep(Curve::reversal(after, top), kept);
+    store(Curve::reversal(after, top), history);
     return force_scale * r_eff * r_eff * (r_eff * lambda) * (top.work * (1.0 - top.kept) - spent);
   }
   double contact_radius(double r_eff, double delta, double delta_max, double impact_overlap) const
@@ -171,11 +171,11 @@ struct Tabulated
   {
     return dent(r_eff, depth, curve->reversal(depth * (per_lambda * scale.stretch / r_eff), impact_overlap));
   }
-  /// The same of a contact whose largest overlap it is; `kept`: as in force().
-  Dent dent(double r_eff, double depth, double impact_overlap, double* kept) const
+  /// The same of a contact whose largest overlap it is; `history`: as in force().
+  Dent dent(double r_eff, double depth, double impact_overlap, double* history) const
   {
     // the same product as force() has
-    return dent(r_eff, depth, reversal(depth * scale.stretch * (per_lambda / r_eff), impact_overlap, kept));
+    return dent(r_eff, depth, reversal(depth * scale.stretch * (per_lambda / r_eff), impact_overlap, history));
   }
   Dent dent(double r_eff, double depth, const Reversal& back) const
   {
@@ -222,18 +222,18 @@ struct Tabulated
   {
     return measure.per_speed(*curve->axis(), mapping, r_eff * scale.length, m_eff * scale.mass);
   }
-  /// The reversal at x_max, out of `kept` where that holds it, and kept there else.
-  Reversal reversal(double x_max, double impact_overlap, double* kept) const
+  /// The reversal at x_max, out of `history` where that holds it, and stored there else.
+  Reversal reversal(double x_max, double impact_overlap, double* history) const
   {
-    if (kept[0] != x_max) [[unlikely]]
-      keep(curve->reversal(x_max, impact_overlap), kept);
-    return kept_reversal(kept);
+    if (history[0] != x_max) [[unlikely]]
+      store(curve->reversal(x_max, impact_overlap), history);
+    return stored_reversal(history);
   }
-  static void keep(const Reversal& reversal, double* kept) { std::memcpy(kept, &reversal, sizeof reversal); }
-  static Reversal kept_reversal(const double* kept)
+  static void store(const Reversal& reversal, double* history) { std::memcpy(history, &reversal, sizeof reversal); }
+  static Reversal stored_reversal(const double* history)
   {
-    std::array<double, values_of(keeps)> values;
-    std::copy_n(kept, values.size(), values.begin());
+    std::array<double, values_of(history_values)> values;
+    std::copy_n(history, values.size(), values.begin());
     return std::bit_cast<Reversal>(values);
   }
 };

@@ -19,30 +19,30 @@ struct ContactMotion : NormalMotion
   double dt = 0;     ///< s
   Vector normal{};   ///< unit, from j to i
   Vector slide{};    ///< m/s, velocity of i's surface against j's at the contact, along the surface
-  Vector turn{};     ///< rad/s, (omega_i - omega_j) x normal: rolling of i, in the direction that it rolls
+  Vector rolling{};  ///< rad/s, (omega_i - omega_j) x normal: rolling of i, in the direction that it rolls
 };
 
 /// Force and couple of a tangential law on body i; j gets the opposite of both.
-struct Grip
+struct TangentialForce
 {
   Vector force{};   ///< N, along the surface
   Vector couple{};  ///< N m, beside the force's own torque
 
-  Grip() = default;
-  Grip(const Vector& shear) : force(shear) {}  // NOLINT(google-explicit-constructor): most laws have no couple
+  TangentialForce() = default;
+  TangentialForce(const Vector& shear) : force(shear) {}  // NOLINT(google-explicit-constructor): most laws have no couple
 };
 
 // clang-format off
 
-/// `normal_kept`: the normal law's values (NormalState), `kept`: this law's own. `push`: N, >= 0, what acts along the normal
+/// `normal_history`: the normal law's values (NormalState), `history`: this law's own. `push`: N, >= 0, what acts along the normal
 /// without what stands beside the laws; `pressing`: N, with it, whose size friction grows with. A law with `deepens = true` may
 /// lower `push` and raise the largest overlap, and books what either takes.
 template <class Law, class Normal>
 concept TangentialLaw = std::copyable<Law> &&
-    requires(const Law law, const Normal normal, const ContactMotion& motion, double& push, double pressing, double* normal_kept,
-             double* kept, Ledger& books) {
-  { std::span<const Kept>(Law::keeps) };
-  { law.advance(normal, motion, push, pressing, normal_kept, kept, books) } -> std::convertible_to<Grip>;
+    requires(const Law law, const Normal normal, const ContactMotion& motion, double& push, double pressing, double* normal_history,
+             double* history, Ledger& ledger) {
+  { std::span<const HistoryValue>(Law::history_values) };
+  { law.advance(normal, motion, push, pressing, normal_history, history, ledger) } -> std::convertible_to<TangentialForce>;
 };
 
 // clang-format on
@@ -50,7 +50,7 @@ concept TangentialLaw = std::copyable<Law> &&
 /// No tangential force.
 struct Frictionless
 {
-  static constexpr std::array<Kept, 0> keeps{};
+  static constexpr std::array<HistoryValue, 0> history_values{};
   template <class Normal>
   Vector advance(const Normal&, const ContactMotion&, double, double, double*, double*, Ledger&) const
   {
@@ -77,12 +77,12 @@ struct ShearPair
     double stiffness, dashpot;  ///< N/m, kg/s
   };
   template <class Normal>
-  OfContact contact(const Normal& law, const ContactMotion& m, const double* normal_kept) const
+  OfContact contact(const Normal& law, const ContactMotion& m, const double* normal_history) const
   {
     using State = NormalState<Normal>;
     if (of_law) [[unlikely]] {
       const double k =
-          stiffness * law.contact_radius(m.r_eff, m.overlap, State::largest(normal_kept), State::impact_overlap(normal_kept));
+          stiffness * law.contact_radius(m.r_eff, m.overlap, State::largest(normal_history), State::impact_overlap(normal_history));
       return {k, damping * std::sqrt(k * m.m_eff)};
     }
     const double root = std::sqrt(m.r_eff * m.overlap);
@@ -102,7 +102,7 @@ struct ShearPair
 /// k_t = 8 G* sqrt(R* d), a dashpot while it sticks.
 struct Spring
 {
-  static constexpr std::array keeps{Kept{.name = "shear", .values = 3, .turns_with_exchange = true}};
+  static constexpr std::array history_values{HistoryValue{.name = "shear", .values = 3, .changes_sign = true}};
 
   ShearPair pair;
 
@@ -110,38 +110,35 @@ struct Spring
   explicit Spring(const ShearPair& numbers) : pair(numbers) {}
 
   template <class Normal>
-  Vector advance(const Normal& law, const ContactMotion& m, double, double pressing, double* normal_kept, double* shear,
-                 Ledger& books) const
+  Vector advance(const Normal& law, const ContactMotion& m, double, double pressing, double* normal_history, double* shear,
+                 Ledger& ledger) const
   {
-    const auto [k, dashpot] = pair.contact(law, m, normal_kept);
-    return advance(m, pressing, k, dashpot, shear, books);
+    const auto [k, dashpot] = pair.contact(law, m, normal_history);
+    return advance(m, pressing, k, dashpot, shear, ledger);
   }
   /// With k_t (N/m) and the dashpot (kg/s) given.
-  Vector advance(const ContactMotion& m, double pressing, double k, double dashpot, double* shear, Ledger& books) const
+  Vector advance(const ContactMotion& m, double pressing, double k, double dashpot, double* shear, Ledger& ledger) const
   {
+    // no loops over components: where their places are variables, arrays stay in memory, and a copy waits for its parts
     Vector u{shear[0], shear[1], shear[2]};
     if (m.advances) {
-      for (int c = 0; c < 3; ++c) u[c] += m.slide[c] * m.dt;
-      const double out = u[0] * m.normal[0] + u[1] * m.normal[1] + u[2] * m.normal[2];
-      for (int c = 0; c < 3; ++c) u[c] -= out * m.normal[c];
+      u = sum(u, m.slide, m.dt);
+      u = sum(u, m.normal, -dot(u, m.normal));
     }
-    const double length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-    const double held = k * length, most = pair.friction * std::abs(pressing);
-    Vector force{-(k * u[0]), -(k * u[1]), -(k * u[2])};
+    const double pull = k * norm(u), most = pair.friction * std::abs(pressing);
+    Vector force = times(u, -k);
     double taken = 0.0;
-    if (held > most) {
-      const double ratio = most / held;
-      for (int c = 0; c < 3; ++c) force[c] *= ratio;
-      if (m.advances)
-        for (int c = 0; c < 3; ++c) u[c] = -force[c] / k;
-      taken = most * (held - most) / k;
+    if (pull > most) {
+      force = times(force, most / pull);
+      if (m.advances) u = {-force[0] / k, -force[1] / k, -force[2] / k};
+      taken = most * (pull - most) / k;
     } else {
-      for (int c = 0; c < 3; ++c) force[c] -= dashpot * m.slide[c];
-      taken = dashpot * m.dt * (m.slide[0] * m.slide[0] + m.slide[1] * m.slide[1] + m.slide[2] * m.slide[2]);
+      force = sum(force, m.slide, -dashpot);
+      taken = dashpot * m.dt * dot(m.slide, m.slide);
     }
     if (m.advances) {
-      std::copy_n(u.begin(), 3, shear);
-      books[Mechanism::friction] += taken;
+      shear[0] = u[0], shear[1] = u[1], shear[2] = u[2];
+      ledger[Mechanism::friction] += taken;
     }
     return force;
   }
@@ -150,7 +147,7 @@ struct Spring
 /// A dashpot with Coulomb's limit, as LIGGGHTS's `tangential no_history` has it, to the bit.
 struct ViscousFriction
 {
-  static constexpr std::array<Kept, 0> keeps{};
+  static constexpr std::array<HistoryValue, 0> history_values{};
 
   ShearPair pair;
 
@@ -158,11 +155,11 @@ struct ViscousFriction
   explicit ViscousFriction(const ShearPair& numbers) : pair(numbers) {}
 
   template <class Normal>
-  Vector advance(const Normal& law, const ContactMotion& m, double, double pressing, double* normal_kept, double*, Ledger& books) const
+  Vector advance(const Normal& law, const ContactMotion& m, double, double pressing, double* normal_history, double*, Ledger& ledger) const
   {
-    const double dashpot = pair.contact(law, m, normal_kept).dashpot, speed = norm(m.slide), most = pair.friction * std::abs(pressing);
+    const double dashpot = pair.contact(law, m, normal_history).dashpot, speed = norm(m.slide), most = pair.friction * std::abs(pressing);
     const double gamma = most < dashpot * speed ? most / speed : dashpot;
-    if (m.advances) books[Mechanism::friction] += gamma * m.dt * speed * speed;
+    if (m.advances) ledger[Mechanism::friction] += gamma * m.dt * speed * speed;
     return {-gamma * m.slide[0], -gamma * m.slide[1], -gamma * m.slide[2]};
   }
 };

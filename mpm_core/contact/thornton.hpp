@@ -103,8 +103,8 @@ inline double planned_stiffness(const ThorntonPair& law, double r_eff, double de
 /// 1/(d_m - d_p), the one number of this that takes a root and a division.
 struct Thornton : FormulaContact
 {
-  static constexpr std::array keeps{Kept{.name = "turn_overlap", .derived = true},  // R* d_m
-                                    Kept{.name = "turn", .derived = true}};         // 1/(d_m - d_p)
+  static constexpr std::array history_values{HistoryValue{.name = "reversal_overlap", .derived = true},  // R* d_m
+                                    HistoryValue{.name = "reversal", .derived = true}};         // 1/(d_m - d_p)
 
   ThorntonPair law{};  // unstretched
   double per_stretch = 1.0;
@@ -125,19 +125,19 @@ struct Thornton : FormulaContact
     per_area = softened * softened / (2.0 * M_PI * pair.yield_pressure * per_stretch);
   }
 
-  double force(double r_eff, double delta, double delta_max, double, double* kept) const
+  double force(double r_eff, double delta, double delta_max, double, double* history) const
   {
     if (loads(r_eff, delta, delta_max)) return loading(r_eff, delta, 0.0);
     const double top = force_at_top(r_eff, delta_max);
-    const double part = std::max(1.0 - (delta_max - delta) * turn(r_eff, delta_max, top, kept), 0.0);
+    const double part = std::max(1.0 - (delta_max - delta) * reversal(r_eff, delta_max, top, history), 0.0);
     return top * part * std::sqrt(part);
   }
-  Response response(double r_eff, double delta, double delta_max, double, double* kept) const
+  Response response(double r_eff, double delta, double delta_max, double, double* history) const
   {
     if (loads(r_eff, delta, delta_max))
       return {loading(r_eff, delta, 0.0),
               delta <= onset * r_eff ? 1.5 * hertz * std::sqrt(r_eff * delta) : plastic_slope * r_eff};
-    const double top = force_at_top(r_eff, delta_max), per_elastic = turn(r_eff, delta_max, top, kept);
+    const double top = force_at_top(r_eff, delta_max), per_elastic = reversal(r_eff, delta_max, top, history);
     const double part = std::max(1.0 - (delta_max - delta) * per_elastic, 0.0), root = std::sqrt(part);
     return {top * part * root, 1.5 * top * root * per_elastic};
   }
@@ -145,7 +145,7 @@ struct Thornton : FormulaContact
   {
     return delta <= onset * r_eff ? hertz * std::sqrt(r_eff * delta) * delta : force_at_top(r_eff, delta);
   }
-  double grow(double r_eff, double from, double to, double impact_overlap, double* kept) const
+  double grow(double r_eff, double from, double to, double impact_overlap, double* history) const
   {
     if (to <= onset * r_eff) return 0.0;
     const double after = force_at_top(r_eff, to), per_after = per_elastic(r_eff, after);
@@ -154,12 +154,12 @@ struct Thornton : FormulaContact
       spent = dissipated(r_eff, from, to, impact_overlap);
     else {
       const double before = force_at_top(r_eff, from);
-      const double per_before = kept[0] == r_eff * from ? kept[1] : per_elastic(r_eff, before);
+      const double per_before = history[0] == r_eff * from ? history[1] : per_elastic(r_eff, before);
       // what loads a contact beyond its yield is linear, what it gives back is 2/5 F_m (d_m - d_p)
       spent = 0.5 * (before + after) * (to - from) - 0.4 * (after / per_after - before / per_before);
     }
-    kept[0] = r_eff * to;
-    kept[1] = per_after;
+    history[0] = r_eff * to;
+    history[1] = per_after;
     return spent;
   }
   double contact_radius(double r_eff, double delta, double delta_max, double) const
@@ -187,15 +187,15 @@ struct Thornton : FormulaContact
   {
     return delta_max <= onset * r_eff || delta >= delta_max;
   }
-  /// 1/(d_m - d_p), out of `kept` where that holds it, and kept there else.
-  double turn(double r_eff, double delta_max, double top, double* kept) const
+  /// 1/(d_m - d_p), out of `history` where that holds it, and stored there else.
+  double reversal(double r_eff, double delta_max, double top, double* history) const
   {
     const double key = r_eff * delta_max;
-    if (kept[0] != key) [[unlikely]] {
-      kept[0] = key;
-      kept[1] = per_elastic(r_eff, top);
+    if (history[0] != key) [[unlikely]] {
+      history[0] = key;
+      history[1] = per_elastic(r_eff, top);
     }
-    return kept[1];
+    return history[1];
   }
   /// N, at a largest overlap beyond first yield.
   double force_at_top(double r_eff, double delta_max) const

@@ -42,8 +42,8 @@ ObliqueAnswer collide(const Element& element, const ObliqueThrow& thrown, Tangen
   double delta = 0, deepest = 0, along = thrown.tangential_velocity, away = -thrown.velocity;
   double x = 0, z = thrown.radius + other.radius;  // of the sphere's centre from the partner's
   Vector normal{0, 0, 1}, along_it{1, 0, 0};
-  std::array<double, Element::values> kept{};
-  Ledger books;
+  std::array<double, Element::values> history{};
+  Ledger ledger;
   ContactForce now;
   const auto lever = [&](const Turning& of) {
     return lever_of(wall ? kind : TangentialKind::history, of.radius, delta);
@@ -68,7 +68,7 @@ ObliqueAnswer collide(const Element& element, const ObliqueThrow& thrown, Tangen
     const double approach = -(along * normal[0] + away * normal[2]);
     if (delta <= 0 || (approach < 0 && now.normal <= 0 && step > 0)) {
       double taken = 0;
-      for (const double one : books.taken) taken += one;
+      for (const double one : ledger.taken) taken += one;
       return {away / thrown.velocity, along, sphere.spin, partner.spin, m * (thrown.velocity + away),
               m * (thrown.tangential_velocity - along), deepest, taken};
     }
@@ -81,7 +81,7 @@ ObliqueAnswer collide(const Element& element, const ObliqueThrow& thrown, Tangen
                            normal,
                            times(along_it, slide),
                            times(along_it, sphere.spin - partner.spin)},
-                          kept.data(), books);
+                          history.data(), ledger);
     kick(0.5 * dt);
   }
   fail("replay of an oblique impact", "the collision did not end");
@@ -107,7 +107,7 @@ ObliqueAnswer replay_oblique(const PairLaw& pair, const ObliqueThrow& thrown, Ta
   const PlasticShear plastic(normal, spring, bodies);
   const long most = 100L * steps;
   const ObliqueAnswer answer =
-      kind == TangentialKind::plastic && plastic.turns()
+      kind == TangentialKind::plastic && plastic.yields()
           ? collide(ContactElement<Tabulated, PlasticShear>{normal, plastic}, thrown, kind, dt, most)
           : collide(ContactElement<Tabulated, Spring>{normal, Spring(spring)}, thrown, TangentialKind::history, dt, most);
   if (answer.overlap_max > pair.max_overlap(r))

@@ -52,10 +52,10 @@ TEST(BodyBehind, PartsMakeTheWhole)
     const double c = far_field(0.3) / contact.pair_modulus() * reach_behind(r, distance);
     for (const double deepest : {0.0, 1e-3, 0.05})
       for (const double overlap : {1e-7, 1e-4, 1e-2, 0.049, 0.05, 0.051, 0.1}) {
-        std::vector<double> kept(NormalState<Tabulated>::values, 0.0);
-        kept[0] = deepest * r;
-        const double x = overlap_of_law(contact, r, overlap * r, c, kept.data());
-        const double force = contact.force(r, x, deepest * r, 0.0, kept.data() + NormalState<Tabulated>::own);
+        std::vector<double> history(NormalState<Tabulated>::values, 0.0);
+        history[0] = deepest * r;
+        const double x = overlap_of_law(contact, r, overlap * r, c, history.data());
+        const double force = contact.force(r, x, deepest * r, 0.0, history.data() + NormalState<Tabulated>::own);
         EXPECT_NEAR((x + c * force) / (overlap * r), 1, 1e-13) << distance << " " << deepest << " " << overlap;
       }
   }
@@ -69,8 +69,8 @@ TEST(BodyBehind, NoClosedPathGains)
   const double r = 1e-3, c = 0.3 / (contact.pair_modulus() * r);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> overlaps(0.0, 0.05 * r);
-  std::vector<double> kept(NormalState<Tabulated>::values, 0.0);
-  double* const own = kept.data() + NormalState<Tabulated>::own;
+  std::vector<double> history(NormalState<Tabulated>::values, 0.0);
+  double* const own = history.data() + NormalState<Tabulated>::own;
   double at = 0, work = 0, force = 0, law_overlap = 0;
   for (int path = 0; path < 20; ++path) {
     const double to = path == 19 ? 0.01 * r : overlaps(random);
@@ -79,13 +79,13 @@ TEST(BodyBehind, NoClosedPathGains)
     for (int k = 0; k < steps; ++k) {
       at += d;
       const double before = force;
-      law_overlap = overlap_of_law(contact, r, at, c, kept.data());
-      force = contact.force(r, law_overlap, kept[0], 0.0, own);
-      kept[0] = std::max(kept[0], law_overlap);
+      law_overlap = overlap_of_law(contact, r, at, c, history.data());
+      force = contact.force(r, law_overlap, history[0], 0.0, own);
+      history[0] = std::max(history[0], law_overlap);
       work += 0.5 * (before + force) * d;
     }
   }
-  const double booked = contact.dissipated(r, 0.0, kept[0], 0.0) + contact.stored_energy(r, law_overlap, kept[0], 0.0) +
+  const double booked = contact.dissipated(r, 0.0, history[0], 0.0) + contact.stored_energy(r, law_overlap, history[0], 0.0) +
                         energy_behind(c, force);
   EXPECT_NEAR(work / booked, 1, 1e-6);
 }

@@ -35,20 +35,20 @@ std::vector<Step> path(unsigned seed, double deepest)
 template <class Contact>
 void expect_the_same_force_with_what_is_kept(const Contact& contact, double deepest, double impact_overlap)
 {
-  double delta_max = 0.0, kept[values_of(Contact::keeps)] = {};
+  double delta_max = 0.0, history[values_of(Contact::history_values)] = {};
   for (const auto& [r_eff, delta] : path(11, deepest)) {
-    double fresh[values_of(Contact::keeps)] = {};
-    const double force = contact.force(r_eff, delta, delta_max, impact_overlap, kept);
+    double fresh[values_of(Contact::history_values)] = {};
+    const double force = contact.force(r_eff, delta, delta_max, impact_overlap, history);
     ASSERT_EQ(force, contact.force(r_eff, delta, delta_max, impact_overlap, fresh));
     if (delta <= delta_max) continue;
     ASSERT_EQ(contact.loading(r_eff, delta, impact_overlap), force);
     const double expected = contact.dissipated(r_eff, delta_max, delta, impact_overlap);
     // the difference of two works: rounding counts against these
     const double work = contact.loading(r_eff, delta, impact_overlap) * delta;
-    ASSERT_NEAR(contact.grow(r_eff, delta_max, delta, impact_overlap, kept), expected, 1e-14 * work);
+    ASSERT_NEAR(contact.grow(r_eff, delta_max, delta, impact_overlap, history), expected, 1e-14 * work);
     // the reversal that the loss was worked out from is there for the next step
     contact.force(r_eff, 0.9 * delta, delta, impact_overlap, fresh);
-    for (std::size_t k = 0; k < std::size(fresh); ++k) ASSERT_EQ(kept[k], fresh[k]);
+    for (std::size_t k = 0; k < std::size(fresh); ++k) ASSERT_EQ(history[k], fresh[k]);
     delta_max = delta;
   }
   EXPECT_GT(delta_max, 0.5 * deepest * 1e-3);
@@ -79,20 +79,20 @@ TEST(Thornton, IsThorntonPairButForRounding)
     for (const double stretch : {1.0, 3.0}) {
       const ThorntonPair pair{1e8, yield_pressure};
       const Thornton contact(pair, stretch);
-      double delta_max = 0.0, kept[values_of(Thornton::keeps)] = {};
+      double delta_max = 0.0, history[values_of(Thornton::history_values)] = {};
       for (const auto& [r_eff, delta] : path(5, 0.05)) {
         const double real = delta / stretch, real_max = std::max(delta_max, delta) / stretch;
         const double expected = pair.evaluate(r_eff, real, delta_max / stretch).force / stretch;
         // p = 1 - (d_m - d)/(d_m - d_p) is off by rounding of one, and with it the force, by 1.5 F_m of that
         const double top = pair.evaluate(r_eff, real_max, real_max).force / stretch;
-        const auto [force, stiffness] = contact.response(r_eff, delta, delta_max, 0.0, kept);
+        const auto [force, stiffness] = contact.response(r_eff, delta, delta_max, 0.0, history);
         ASSERT_NEAR(force, expected, 1e-14 * top);
         const Answer exact = pair.evaluate(r_eff, real, delta_max / stretch);
         // 2 E* a and the slope of F_m p^1.5 are one; p's rounding counts by its root
         ASSERT_NEAR(stiffness, exact.stiffness / (stretch * stretch),
                     2e-8 * std::max(exact.stiffness, top / real_max));
         if (delta > delta_max) {
-          contact.grow(r_eff, delta_max, delta, 0.0, kept);
+          contact.grow(r_eff, delta_max, delta, 0.0, history);
           delta_max = delta;
         }
       }

@@ -136,8 +136,8 @@ TEST(PlasticShear, NoClosedPathGivesWork)
     for (int path = 0; path < 12; ++path) {
       const double friction = path % 2 ? 0.6 : 0.3, deepest = stiffness > 500 ? 0.01 : 0.1;
       const auto element = sphere.element(friction);
-      std::vector<double> kept(element.values, 0.0);
-      Ledger books;
+      std::vector<double> history(element.values, 0.0);
+      Ledger ledger;
       double delta = 0, slid = 0, turned = 0, work = 0, force = 0, pull = 0, moment = 0;
       const auto go = [&](double to, double slide_to, double turn_to) {
         const int steps = 1500;
@@ -145,7 +145,7 @@ TEST(PlasticShear, NoClosedPathGivesWork)
         for (int k = 0; k < steps; ++k) {
           delta += dd, slid += du, turned += dt;
           const ContactForce now = element.advance({{radius, delta, dd, true}, sphere.mass, 1.0, {0, 0, 1}, {du, 0, 0}, {dt, 0, 0}},
-                                                   kept.data(), books);
+                                                   history.data(), ledger);
           work += 0.5 * ((force + now.normal) * dd - (pull + now.shear[0]) * du - (moment + now.couple[1]) * dt);
           force = now.normal, pull = now.shear[0], moment = now.couple[1];
         }
@@ -160,7 +160,7 @@ TEST(PlasticShear, NoClosedPathGivesWork)
       // apart, the contact holds nothing: what it took was not negative, but for the error of the steps (measured:
       // 2e-4 of F delta over 14 legs of 400 steps in two hundred paths)
       EXPECT_GT(work, -1e-3 * largest) << stiffness << " " << path;
-      EXPECT_GE(books[Mechanism::friction], 0);
+      EXPECT_GE(ledger[Mechanism::friction], 0);
     }
   }
 }
@@ -174,15 +174,15 @@ TEST(PlasticShear, EachClosedCycleTakesWork)
     const Sphere sphere(stiffness);
     const auto element = sphere.element(0.5);
     for (int path = 0; path < 20; ++path) {
-      std::vector<double> kept(element.values, 0.0);
-      Ledger books;
+      std::vector<double> history(element.values, 0.0);
+      Ledger ledger;
       ContactForce last;
       double delta = 0, slid = 0, turned = 0, work = 0;
       const auto go = [&](double to, double slide_to, double turn_to) {
         const double dd = to - delta, du = slide_to - slid, dt = turn_to - turned;
         delta = to, slid = slide_to, turned = turn_to;
         const ContactForce now =
-            element.advance({{radius, delta, dd, true}, sphere.mass, 1.0, {0, 0, 1}, {du, 0, 0}, {dt, 0, 0}}, kept.data(), books);
+            element.advance({{radius, delta, dd, true}, sphere.mass, 1.0, {0, 0, 1}, {du, 0, 0}, {dt, 0, 0}}, history.data(), ledger);
         work += 0.5 * ((last.normal + now.normal) * dd - (last.shear[0] + now.shear[0]) * du - (last.couple[1] + now.couple[1]) * dt);
         last = now;
       };
@@ -229,24 +229,24 @@ TEST(PlasticShear, ExchangeOfTheBodiesGivesTheOppositeForces)
   const ShearPair spring = ShearPair::of(ab.stiffness, 0.4, 0.0);
   using Element = ContactElement<Tabulated, PlasticShear>;
   const Element first{normal, PlasticShear(normal, spring, ab)}, second{normal, PlasticShear(normal, spring, ba)};
-  std::vector<double> kept(Element::values, 0.0), other(Element::values, 0.0);
-  Ledger books;
+  std::vector<double> history(Element::values, 0.0), other(Element::values, 0.0);
+  Ledger ledger;
   double delta = 0;
   for (int k = 0; k < 300; ++k) {
     const double dd = 0.04 * radius / 300;
     delta += k < 200 ? dd : -dd;
     const ContactForce now = first.advance(
-        {{radius, delta, k < 200 ? dd : -dd, true}, 1.0, 1.0, {0, 0, 1}, {1e-7, 5e-8, 0}, {2e-4, -1e-4, 0}}, kept.data(), books);
+        {{radius, delta, k < 200 ? dd : -dd, true}, 1.0, 1.0, {0, 0, 1}, {1e-7, 5e-8, 0}, {2e-4, -1e-4, 0}}, history.data(), ledger);
     // seen from j: the normal turns about, so does the slide; i rolls along the same direction
     const ContactForce then = second.advance(
-        {{radius, delta, k < 200 ? dd : -dd, true}, 1.0, 1.0, {0, 0, -1}, {-1e-7, -5e-8, 0}, {2e-4, -1e-4, 0}}, other.data(), books);
+        {{radius, delta, k < 200 ? dd : -dd, true}, 1.0, 1.0, {0, 0, -1}, {-1e-7, -5e-8, 0}, {2e-4, -1e-4, 0}}, other.data(), ledger);
     EXPECT_NEAR(then.normal, now.normal, 1e-9 * now.normal);
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(then.shear[c], -now.shear[c], 1e-9 * now.normal);
       EXPECT_NEAR(then.couple[c], -now.couple[c], 1e-9 * now.normal * radius);
     }
   }
-  EXPECT_GT(std::abs(kept[Element::values - 5]), 0.0);  // it has tilted
+  EXPECT_GT(std::abs(history[Element::values - 5]), 0.0);  // it has tilted
 }
 
 /// Results of the solver in three dimensions (docs/evidence/oblique.md).

@@ -34,10 +34,10 @@ class Waves : public ::testing::Test
   double force(const State& s, const Scale& scale) const
   {
     const Tabulated c = contact(scale);
-    double kept[values_of(Tabulated::keeps)] = {};
+    double history[values_of(Tabulated::history_values)] = {};
     const double r = r_eff / scale.length, delta = scale.stretch * s.delta / scale.length,
                  delta_max = scale.stretch * s.delta_max / scale.length;
-    const double k = c.response(r, delta, delta_max, s.impact_overlap, kept).stiffness;
+    const double k = c.response(r, delta, delta_max, s.impact_overlap, history).stiffness;
     return c.radiation * k * k * (speed / scale.length) * scale.mass * scale.length;
   }
 };
@@ -46,12 +46,12 @@ TEST_F(Waves, ForceAndStiffnessAreThoseOfTheBranch)
 {
   const Tabulated c = contact({});
   for (const State& s : states) {
-    double kept[values_of(Tabulated::keeps)] = {};
-    const Response found = c.response(r_eff, s.delta, s.delta_max, s.impact_overlap, kept);
+    double history[values_of(Tabulated::history_values)] = {};
+    const Response found = c.response(r_eff, s.delta, s.delta_max, s.impact_overlap, history);
     const double expected =
         answer(powder.curve, pair.mapping, r_eff, s.delta, s.delta_max, s.impact_overlap).stiffness;
     EXPECT_NEAR(found.stiffness, expected, 1e-12 * expected);
-    EXPECT_EQ(found.force, c.force(r_eff, s.delta, s.delta_max, s.impact_overlap, kept));
+    EXPECT_EQ(found.force, c.force(r_eff, s.delta, s.delta_max, s.impact_overlap, history));
   }
 }
 
