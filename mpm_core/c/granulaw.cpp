@@ -195,7 +195,7 @@ int granulaw_turns(const granulaw_contact_law* contact, size_t place)
   return std::visit(
       [&](const auto& element) {
         std::size_t behind = 0;
-        for (const HistoryValue& one : element.keeps)
+        for (const HistoryValue& one : element.history_values)
           if (place < (behind += one.values)) return one.changes_sign ? 1 : 0;
         return 0;
       },
@@ -218,10 +218,10 @@ int granulaw_advance(const granulaw_contact_law* contact, size_t n, const granul
 {
   if (n == 0) return GRANULAW_OK;
   if (!contact || !motion || !history || !answer) return GRANULAW_NO_POINTER;
-  Ledger ledger;
+  Ledger taken;
   const int code =
-      std::visit([&](const auto& element) { return advance(element, n, motion, history, answer, ledger); },
+      std::visit([&](const auto& element) { return advance(element, n, motion, history, answer, taken); },
                  contact->element);
-  for (std::size_t k = 0; ledger && k < ledger.taken.size(); ++k) ledger[k] += ledger.taken[k];
+  for (std::size_t k = 0; ledger && k < taken.taken.size(); ++k) ledger[k] += taken.taken[k];
   return code;
 }
