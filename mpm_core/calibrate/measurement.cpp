@@ -1,6 +1,7 @@
 #include "calibrate/measurement.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "calibrate/kind/kind.hpp"
 
@@ -14,6 +15,12 @@ bool is_shallower(const Datum& a, const Datum& b)
 }
 
 }  // namespace
+
+double Measurement::sphere_density(double fitted) const
+{
+  if (body.mass > 0) return body.mass / (4.0 / 3.0 * M_PI * radius * radius * radius);
+  return counterpart_is_ball ? counterpart->density : fitted;
+}
 
 double Measurement::largest_x() const
 {

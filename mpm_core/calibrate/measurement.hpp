@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/impact_body.hpp"
 #include "law/law_material.hpp"
 
 namespace granulaw {
@@ -58,6 +59,8 @@ struct Measurement
   /// Material of the body that is not fitted: an indenter, a deformable wall or the ball; none: rigid.
   std::optional<LawMaterial> counterpart;
   bool counterpart_is_ball = false;  ///< the ball is the counterpart, and a deformable wall is fitted
+  ImpactBody body{};                 ///< impacts: what the sphere is fixed to
+  bool is_leeb = false;              ///< the values were read as Leeb hardnesses, over 1000 (leeb.hpp)
   bool fit_offset = false;           ///< curves: the displacement of first touch is unknown
   bool fit_compliance = false;       ///< curves: the machine gives way in proportion to the force
   /// Known before the data: 95 % of the ratio of the value to the yield stress lie between, in place of the
@@ -67,8 +70,9 @@ struct Measurement
 
   /// The law of the contact is composed of the laws of two bodies.
   bool is_composed() const { return counterpart || indenter_radius > 0; }
-  /// Density of the sphere that drops, kg/m^3, where the fitted material has this one.
-  double sphere_density(double fitted) const { return counterpart_is_ball ? counterpart->density : fitted; }
+  /// Density of the sphere that drops, kg/m^3, where the fitted material has this one: of a sphere of the impact body's
+  /// mass, where there is one.
+  double sphere_density(double fitted) const;
   /// Speed on a rigid wall at which the sphere loses as much, over the impact's.
   double wall_share() const { return partner == ImpactPartner::like_sphere ? 0.5 : 1.0; }
   double largest_x() const;

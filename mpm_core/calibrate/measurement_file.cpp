@@ -21,9 +21,12 @@ namespace {
 
 constexpr std::size_t most_rows = 200000;  // half an hour at 100 Hz
 
+/// A reading of a rebound tester: 1000 e, at the speed of its device.
+constexpr Column leeb{.quantity = "leeb_hardness", .most = 1000};
+
 std::string known_headers()
 {
-  std::string all;
+  std::string all = leeb.name() + "; ";
   for (const std::string& header : measurement_headers()) all += header + "; ";
   return all + "each with NAME_sd of the last column, if known";
 }
@@ -84,13 +87,16 @@ void complain_of_units(const std::vector<std::string>& columns, const std::strin
 struct Columns
 {
   const Kind* kind;
-  bool sd;
-  std::size_t count() const { return (kind->x.exists() ? 2 : 1) + (sd ? 1 : 0); }
+  bool sd, is_leeb = false;
+  bool has_x() const { return kind->x.exists() && !is_leeb; }
+  std::size_t count() const { return (has_x() ? 2 : 1) + (sd ? 1 : 0); }
 };
 
 Columns read_header(const std::vector<std::string>& words, const std::string& where, const Kind& curves)
 {
   const std::string found = fmt::format("{}", fmt::join(words, ","));
+  for (const bool sd : {false, true})
+    if (found == leeb.name() + (sd ? "," + leeb.name() + "_sd" : "")) return {&kind_named("restitution", where), sd, true};
   for (const Kind* kind : kinds()) {
     // kinds of the same columns are distinguished by who calls
     const Kind* chosen = kind->header() == curves.header() ? &curves : kind;
@@ -153,17 +159,22 @@ Measurement parse_measurement(const std::string& text, const std::string& source
                                                  "decimal ones and separated columns, too"
                                                : "the row has another number of columns than the header",
            std::to_string(words.size()), std::to_string(columns.count()));
-    const Column &x = columns.kind->x, &y = columns.kind->y;
+    const Column &x = columns.kind->x, &y = columns.is_leeb ? leeb : columns.kind->y;
     Datum d;
     d.line = rows[k].line;
     std::size_t next = 0;
-    if (x.exists()) d.x = number(words[next++], here, x.name());
+    if (columns.has_x()) d.x = number(words[next++], here, x.name());
     d.y = number(words[next++], here, y.name());
     if (columns.sd) d.sd = number(words[next++], here, "the standard deviation");
-    check(x, d.x, here), check(y, d.y, here);
+    if (columns.has_x()) check(x, d.x, here);
+    check(y, d.y, here);
     if (columns.sd) check({.quantity = "the standard deviation"}, d.sd, here);
+    if (columns.is_leeb && !(d.y < leeb.most))
+      fail(here, fmt::format("'{}' is out of range", leeb.name()), fmt::format("{:g}", d.y), "below 1000: 1000 times the rebound speed over the impact's");
+    if (columns.is_leeb) d.y /= leeb.most, d.sd /= leeb.most;
     m.data.push_back(d);
   }
+  m.is_leeb = columns.is_leeb;
   if (m.data.empty()) fail(source, "holds no row of numbers after the header");
   m.kind = columns.kind;
   m.kind->check_rows(m);

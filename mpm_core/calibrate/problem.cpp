@@ -164,13 +164,13 @@ CalibrationProblem::CalibrationProblem(const Atlas& atlas, CalibrationRequest re
 
 CalibrationProblem::~CalibrationProblem() = default;
 
-/// A number of the material alone (hardness) is a datum: the model's error is its interval. One impact or one row of a
+/// A number of the material alone (hardness, by a tester's rebound, too) is a datum: the model's error is its interval. One impact or one row of a
 /// curve is none: nothing shows whether the model describes it.
 void CalibrationProblem::check_count() const
 {
   const auto& all = request_.measurements;
   const bool has_number =
-      std::any_of(all.begin(), all.end(), [](const Measurement& m) { return !m.kind->x.exists(); });
+      std::any_of(all.begin(), all.end(), [](const Measurement& m) { return !m.kind->x.exists() || m.is_leeb; });
   const std::size_t wanted = std::max<std::size_t>(has_number ? 1 : 2, fitted_count());
   if (data_ + request_.priors.size() < wanted)
     fail(all.front().source,

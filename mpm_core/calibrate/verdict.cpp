@@ -46,7 +46,9 @@ std::string span_of(const CalibrationProblem& problem, const Calibration& c)
   if (all.fastest > 0)
     span = all.fastest < 2
                ? fmt::format("These impacts are all below {:.2g} V_y", all.fastest)
-               : fmt::format("These impacts are at {:.2g} to {} V_y", all.slowest, two_digits(all.fastest));
+           : two_digits(all.slowest) == two_digits(all.fastest)
+               ? fmt::format("These impacts are at {} V_y", two_digits(all.fastest))
+               : fmt::format("These impacts are at {} to {} V_y", two_digits(all.slowest), two_digits(all.fastest));
   if (all.overlap_over_onset > 0)
     span += (span.empty() ? "The curve goes to " : ", the curve to ") +
             fmt::format("{:.3g} times the overlap at which yield begins", all.overlap_over_onset);
@@ -141,7 +143,7 @@ std::string machine_clause(const Calibration& c)
   return "";
 }
 
-/// Hardening and rate both make fast impacts bounce more.
+/// Hardening and rate both make fast impacts bounce more; impacts of one speed show neither.
 std::string rate_clause(const CalibrationProblem& problem, const Calibration& c)
 {
   const auto& all = problem.request().measurements;
@@ -151,6 +153,11 @@ std::string rate_clause(const CalibrationProblem& problem, const Calibration& c)
     return p.parameter != Parameter::youngs_modulus && p.parameter != Parameter::yield_stress &&
            p.profile.within68.low > 0;
   });
+  double slowest = 1e300, fastest = 0;
+  for (const Measurement& m : all)
+    for (const Datum& d : m.data) slowest = std::min(slowest, d.x), fastest = std::max(fastest, d.x);
+  if (fast_only && fastest < 1.5 * slowest)
+    return " Impacts of about one speed do not show how the yield stress changes with the strain rate: this is that of their rate.";
   return fast_only && hardens
              ? " Impacts alone do not distinguish hardening from a yield stress that grows with the strain "
                "rate: a slow curve beside them would."

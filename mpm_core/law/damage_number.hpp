@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "law/law.hpp"
 
 namespace granulaw {
@@ -16,6 +18,13 @@ inline double damage_number(const LawMaterial& yielding, const PairMapping& mapp
 inline double damage_number(const PairLaw& pair, double speed)
 {
   return pair.measure().damage_number(pair.mapping, speed);
+}
+
+/// 1/s, the plastic strain rate in a dent, to a factor of two: a strain of 0.1 a/R (docs/evidence/leeb.md) in the time of
+/// loading, 0.4 a^2/(R V), is V/(4 a); a^2 = 2 R* overlap.
+inline double dent_rate(double speed, double r_eff, double overlap)
+{
+  return 0.25 * speed / std::sqrt(2 * r_eff * overlap);
 }
 
 }  // namespace granulaw

@@ -67,19 +67,20 @@ Replay replay_collision(const NormalForce& law, double effective_mass, double ve
 }
 
 Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,
-                        int steps_per_contact, double compliance)
+                        int steps_per_contact, const ImpactBody& body)
 {
-  const double duration = customary_contact_time(pair.mapping.e_star_pair(), r_eff, effective_mass, velocity);
+  const double moved = body.mass > 0 ? body.mass : effective_mass;
+  const double duration = customary_contact_time(pair.mapping.e_star_pair(), r_eff, moved, velocity);
   const double impact_overlap = pair.impact_overlap(r_eff, effective_mass, velocity);
   double deepest = 0;  // of the law
   const auto respond = [&](double x) { return pair.evaluate(r_eff, x, deepest, impact_overlap); };
   Replay result = replay(
       [&](double delta, double) {
-        const Answer now = respond(overlap_of_law(delta, compliance, deepest, respond));
+        const Answer now = respond(overlap_of_law(delta, body.compliance, deepest, respond));
         deepest = now.delta_max;
         return now;
       },
-      pair.radiation, effective_mass, velocity, duration, steps_per_contact);
+      pair.radiation, moved, velocity, duration, steps_per_contact);
   result.left_speeds = velocity > pair.max_speed(r_eff, effective_mass);
   result.held_speed = velocity < pair.min_speed(r_eff, effective_mass);
   result.left_range = deepest > pair.max_overlap(r_eff);
@@ -88,7 +89,7 @@ Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass
 
 Replay replay_on_wall(const BodyLaw& body, double radius, double mass, double velocity, double compliance)
 {
-  return replay_collision(wall_pair(body), radius, mass, velocity, 20000, compliance);
+  return replay_collision(wall_pair(body), radius, mass, velocity, 20000, {.compliance = compliance});
 }
 
 }  // namespace granulaw

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/impact_body.hpp"
 #include "law/law.hpp"
 
 namespace granulaw {
@@ -38,9 +39,10 @@ Replay replay_collision(const NormalForce& law, double effective_mass, double ve
                         int steps_per_contact = 20000);
 
 /// The same for a pair of a Law: latches the impact overlap X of `velocity` at first touch, and lets waves
-/// take their part. `compliance`: m/N, of bodies behind the contact (contact/body_behind.hpp); overlaps hold theirs.
+/// take their part. `body`: its mass, where over 0, moves in place of the effective mass, which keeps the choice of X;
+/// its compliance is that of the bodies behind the contact (contact/body_behind.hpp), and overlaps hold theirs.
 Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass, double velocity,
-                        int steps_per_contact = 20000, double compliance = 0);
+                        int steps_per_contact = 20000, const ImpactBody& body = {});
 
 /// One body against the rigid wall: `radius` of curvature at its pole (m), its mass (kg).
 Replay replay_on_wall(const BodyLaw& body, double radius, double mass, double velocity, double compliance = 0);

@@ -29,14 +29,27 @@ double swing_of(const Law& law, const ChosenPair& pair, double velocity)
   return std::max(swing(a, pair.radius), swing(b, pair.radius2));
 }
 
+/// With the mass that moves: that of the body, or of it and the sphere that it meets.
+ImpactBody moved(const Law& law, const ChosenPair& pair, ImpactBody body)
+{
+  if (body.mass == 0) return body;
+  const double own = law.bodies.at(pair.names.first).mass(pair.radius);
+  if (!(body.mass >= own))
+    fail("--impact-body-mass", "is below the mass of its sphere", fmt::format("{:g} kg", body.mass), fmt::format("{:.4g} kg or more", own));
+  if (!pair.has_rigid_wall() && std::isfinite(pair.radius2))
+    body.mass = effective_mass(body.mass, law.bodies.at(pair.names.second).mass(pair.radius2));
+  return body;
+}
+
 }  // namespace
 
-StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source)
+StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source,
+                        const ImpactBody& body)
 {
   if (!(velocity >= 1e-12 && velocity <= 1e6))  // as of the radii (chosen_pair.cpp)
     fail("--velocity", "cannot be used", fmt::format("{:g} m/s", velocity), "1e-12 to 1e+06 m/s");
   StatedCollision result;
-  result.replay = replay_collision(pair.law, pair.r_eff, pair.m_eff, velocity);
+  result.replay = replay_collision(pair.law, pair.r_eff, pair.m_eff, velocity, 20000, moved(law, pair, body));
   const double allowed = (1 + overlap_margin) * pair.limit();
   if (result.replay.delta_max > allowed)
     fail(source, "the collision leaves the law's range of overlaps by more than 5 %",

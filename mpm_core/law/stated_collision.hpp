@@ -23,7 +23,8 @@ struct StatedCollision
 };
 
 /// `velocity`: m/s, of approach, 1e-12 to 1e6. Throws Error where it is another, and, led by `source`, where the
-/// collision goes deeper than the law is good for.
-StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source);
+/// collision goes deeper than the law is good for. `body`: what the first of the pair is fixed to.
+StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source,
+                        const ImpactBody& body = {});
 
 }  // namespace granulaw

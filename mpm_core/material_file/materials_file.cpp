@@ -199,7 +199,7 @@ Particle::Inclusion read_inclusion(const Section& i, bool has_shape, Places& pla
 
 void read_particle(const std::string& name, const Section& s, MaterialsFile& file, const std::string& folder)
 {
-  s.check_keys({"radius", "material", "layers", "inclusions", "profile", "shape"});
+  s.check_keys({"radius", "material", "layers", "inclusions", "profile", "shape", "impact_body_mass", "impact_body_compliance"});
   Particle& particle = file.particles[name];
   Places places(file.materials, particle);
   places.of(s);
@@ -216,11 +216,14 @@ void read_particle(const std::string& name, const Section& s, MaterialsFile& fil
   if (s.has("inclusions"))
     for (const Section& i : s.tables("inclusions", "[{material = \"hard\", radius = 1e-4, z = 5e-4}]"))
       particle.inclusions.push_back(read_inclusion(i, s.has("shape"), places));
+  if (s.has("impact_body_mass")) particle.impact_body.mass = s.positive("impact_body_mass", "kg");
+  if (s.has("impact_body_compliance")) particle.impact_body.compliance = s.positive("impact_body_compliance", "m/N");
   if (!fault.empty()) {
     file.faults[name] = fault;
     return;
   }
   validate(particle, s.where());
+  fixed_to(particle, particle.impact_body, s.where());
   check_plausible(s.where(), "radius", "radius", particle.radius);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/larger.hpp"
 #include "base/scales.hpp"
 #include "deck/hertz.hpp"
 #include "deck/plan_options.hpp"
@@ -51,6 +52,7 @@ void include_collision(PairPlan& p, const SizedEncounter& size, const PlanOption
     p.contact_time = std::min(p.contact_time, hertz_time(m.mapping.e_star_pair(), size.radius, size.mass, speed));
     const Overlap impact = overlap_of(options, m, size.radius, size.mass, speed);
     include_overlap(p, size, impact.value, impact.basis);
+    if (m.known_yield && p.speed > p.onset) p.strain_rate = larger(p.strain_rate, dent_rate(speed, size.radius, impact.value));
   }
   if (p.speed_basis == "visited" || !(size.load.energy() > 0)) return;
   const Overlap pressed = overlap_of(options, m, size.radius, size.load.mass, size.load.speed);

@@ -23,6 +23,7 @@ struct PairPlan
   double axis_number = 0;     ///< v^2 of the velocity axis (contact/axis.hpp): I of the pair's one body
   double overlap = 0;         ///< largest, over R*, of the real contact: the deck's over its stretch
   double depth = 0;           ///< largest, over lambda R*: the table's own coordinate
+  double strain_rate = 0;     ///< 1/s, largest, of impacts that yield: dent_rate(); 0: nothing yields by impact
   std::string overlap_basis;  ///< "law", "Thornton" or "Hertz", of an impact; "pressed": by heavier bodies; "visited"
   double contact_time = 0;    ///< s, shortest: Hertz at the largest speed, smallest particles
   double time_step = 0;       ///< s, largest_step (law/contact_step.hpp) to `overlap`, unstretched; infinity: any

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "calibrate/calibrate_by_runs.hpp"
 #include "calibrate/cycles.hpp"
+#include "calibrate/leeb.hpp"
 #include "calibrate/material_toml.hpp"
 #include "calibrate/sphere_laws.hpp"
 #include "calibration_options.hpp"
@@ -27,7 +28,7 @@ struct CalibrateRequest
 {
   CalibrationOptions options;
   FarmOptions farm;
-  std::string output, plot;
+  std::string output, plot, reference;
   int ensemble = 0;
   unsigned seed = 1;
   bool json = false;
@@ -90,6 +91,45 @@ void state_no_values(const CalibrateRequest& r, const CalibrationProblem& proble
   if (!r.plot.empty()) fail(r.plot, "is not drawn: " + why);
 }
 
+/// "HL=760,HB=560": the two of a word, in any order.
+std::pair<double, double> reference_of(const std::string& word)
+{
+  double leeb = 0, brinell = 0;
+  for (std::size_t at = 0; at < word.size();) {
+    const std::size_t end = std::min(word.find(',', at), word.size());
+    const std::string part = word.substr(at, end - at);
+    for (const auto& [key, value] : {std::pair{"HL=", &leeb}, std::pair{"HB=", &brinell}})
+      if (part.starts_with(key)) *value = number_in(part.substr(3)).value_or(0);
+    at = end + 1;
+  }
+  if (!(leeb > 0 && leeb < 1000 && brinell > 0 && std::isfinite(brinell)))
+    fail("--reference", "cannot be understood", fmt::format("'{}'", word), "HL=VALUE,HB=VALUE of the tester's block: Leeb hardness below 1000, HBW 10/3000");
+  return {leeb, brinell};
+}
+
+/// Static flow stress by the yield stress that a rebound tester's readings show; none: there are no such readings, or
+/// the yield stress is not what was fitted.
+std::optional<Estimate95> static_flow_stress(const CalibrateRequest& r, const CalibrationProblem& problem, const Calibration& c)
+{
+  const auto& all = problem.request().measurements;
+  const auto reading = std::find_if(all.begin(), all.end(), [](const Measurement& m) { return m.is_leeb; });
+  const auto fitted = std::find_if(c.parameters.begin(), c.parameters.end(), [](const FittedParameter& p) {
+    return p.parameter == Parameter::yield_stress && p.identifiable();
+  });
+  if (reading == all.end() || fitted == c.parameters.end()) {
+    if (!r.reference.empty()) fail("--reference", "goes with leeb_hardness and --fit yield_stress");
+    return std::nullopt;
+  }
+  Estimate95 factor = usual_rate_factor(reading->body.compliance);
+  if (!r.reference.empty()) {
+    const auto [leeb, brinell] = reference_of(r.reference);
+    constexpr double per_brinell = 9.80665e6;  // Pa
+    factor = rate_factor_of(problem.laws().atlas(), *reading, leeb, brinell * per_brinell, problem.request().known);
+  }
+  const ParameterProfile& p = fitted->profile;
+  return over({p.value, p.within95.low, p.within95.high}, factor);
+}
+
 void run(const CalibrateRequest& r)
 {
   check_outputs(r);
@@ -103,16 +143,20 @@ void run(const CalibrateRequest& r)
   const Calibration result = request.known.hardens_linearly() ? calibrate(problem) : fit_by_runs(r, problem, runs);
   nlohmann::ordered_json json = calibration_json(problem, result);
   if (!runs.empty()) json["runs"] = runs;
+  const std::optional<Estimate95> flow = result.has_values() ? static_flow_stress(r, problem, result) : std::nullopt;
+  if (flow) json["static_flow_stress"] = {{"value", flow->value}, {"low95", flow->low}, {"high95", flow->high}, {"unit", "Pa"}};
   if (!result.has_values()) return state_no_values(r, problem, result, json);
   for (const FittedParameter& p : result.parameters)
     if (p.identifiable() && p.parameter <= Parameter::yield_stress) check_plausible("the fit", name_of(p.parameter), name_of(p.parameter), p.profile.value);
   if (!r.output.empty()) write_text_atomically(r.output, material_toml(result.material, "# " + command_line + "\n" + interval_comments(problem, result)));
   if (r.ensemble > 0) write_ensemble(r, problem, result);
   if (!r.plot.empty()) draw_by_python("mpm calibrate", "plot_fit.py", {r.plot}, json.dump(), r.plot);
-  if (r.json)
-    print_json(json);
-  else
-    print_calibration(problem, result);
+  if (r.json) return print_json(json);
+  print_calibration(problem, result);
+  if (flow)
+    fmt::print("yield_stress is that at the strain rate of the impact, the one to simulate impacts with. The static flow stress at a\n"
+               "plastic strain of about 4 % is {:.4g} Pa (95 %: {:.4g} to {:.4g}{})\n",
+               flow->value, flow->low, flow->high, r.reference.empty() ? "; of steels. --reference narrows it" : "");
 }
 
 void define(Options& command)
@@ -120,6 +164,9 @@ void define(Options& command)
   const auto r = std::make_shared<CalibrateRequest>();
   r->options.add_to(command, true);
   r->farm.add_to(command);
+  command.add_option("--reference", r->reference,
+                     "HL=VALUE,HB=VALUE: what the rebound tester reads on its own block, and the block's HBW 10/3000. Only the static\n"
+                     "flow stress depends on it");
   command.add_option("-o,--output", r->output, "materials file, NAME.toml, that mpm table takes");
   command.add_option("--plot", r->plot, "picture of data, fit and its 95 % band: NAME.png, .pdf or .svg");
   command.add_option("--ensemble", r->ensemble, "so many materials drawn from what the data leave open: NAME-1.toml, ... beside -o NAME.toml")

@@ -8,9 +8,11 @@
 
 #include "base/error.hpp"
 #include "calibrate/kind/kind.hpp"
+#include "calibrate/leeb.hpp"
 #include "calibrate/measurement_file.hpp"
 #include "calibrate/noise.hpp"
 #include "characterise/body/law_material.hpp"
+#include "impact_body_options.hpp"
 #include "material_file/materials_file.hpp"
 #include "material_file/plausible.hpp"
 #include "option_checks.hpp"
@@ -45,7 +47,7 @@ std::string data_help()
     if (kind->word) text += fmt::format(" (--kind {})", kind->word);
     text += fmt::format(": {}", kind->help);
   }
-  return text + ".\nEach with a further column NAME_sd where the standard deviation is known (docs/guide/calibrate.md)";
+  return text + ";\nleeb_hardness: readings of a rebound tester on thick metal, with --leeb.\nEach with a further column NAME_sd where the standard deviation is known (docs/guide/calibrate.md)";
 }
 
 /// "youngs_modulus, ...; with --hardening voce: saturation_stress, strain; ..."
@@ -103,15 +105,16 @@ void CalibrationOptions::add_to(Options& command, bool needs_data)
       .among(fitted_hardening_laws())
       .capture_default_str();
   command.add_option("--known", known, "NAME=VALUE, SI, of a parameter of --hardening that is not fitted");
-  command.add_option("--radius", radius, "of the sphere, m; inf: a thick flat specimen under a spherical indenter")
-      .required()
+  command.add_option("--radius", radius, "of the sphere, m; inf: a thick flat specimen under a spherical indenter. With --leeb the device has it")
       .check(above_zero_to(std::numeric_limits<double>::infinity()));
   command.add_option("--density", density, "kg/m^3; force curves do without").check(above_zero());
   command.add_option("--poisson-ratio", poisson_ratio).check(from_to(0, 0.49)).capture_default_str();
   command.add_option("--youngs-modulus", youngs_modulus, "Pa, where it is known and not fitted").check(above_zero());
   command.add_option("--yield-stress", yield_stress, "Pa, where it is known and not fitted").check(above_zero());
   command.add_option("--hardening-modulus", hardening_modulus, "Pa, where it is known and not fitted (default 0: perfectly plastic)");
-  command.add_option("--kind", kind, "of force curves, whose columns are the same: see DATA").among(words_of_kinds()).capture_default_str();
+  std::vector<std::string> words = words_of_kinds();
+  words.emplace_back("leeb");
+  command.add_option("--kind", kind, "of force curves, whose columns are the same: see DATA; leeb: readings of a rebound tester").among(words).capture_default_str();
   command.add_option("--indenter-radius", indenter_radius, "m, with --kind sphere").check(above_zero_to(1e3));
   command.add_option("--partner", partner, "of impacts. wall: rigid; equal: a sphere of the same material and size, the speed is that of approach (older word: like)")
       .among({"wall", "equal", "like"})
@@ -123,6 +126,8 @@ void CalibrationOptions::add_to(Options& command, bool needs_data)
       .add_option(
           "--ball", ball, "restitution: name of the known material of the ball that drops. --radius is the ball's; all else, and the fit, belong to the thick specimen")
       .needs(materials_file);
+  command.add_option("--leeb", leeb, "impact device of leeb_hardness: D, DC, D+15, S, E, C or G, downwards on thick metal. Sets ball, mass and speed");
+  define_impact_body(command, body, "the sphere or ball");
   command.add_option("--offset", offset, "m, displacement at first touch, where it is known (default: it is fitted, for each curve)");
   command.add_flag("--compliance", compliance, "fit the machine's compliance, m/N, for each curve");
   command
@@ -172,6 +177,7 @@ void CalibrationOptions::set_hardening(CalibrationRequest& r) const
 
 const Kind& CalibrationOptions::curves() const
 {
+  if (kind == "leeb") return kind_named("platens", "--kind");
   return **std::find_if(kinds().begin(), kinds().end(), [&](const Kind* k) { return k->word && k->word == kind; });
 }
 
@@ -181,7 +187,9 @@ Measurement CalibrationOptions::form(const Kind& of, const std::string& source) 
   m.kind = &of;
   m.source = source;
   if (of.needs_density && !density) fail("--density", "is missing: impacts depend on it");
-  m.radius = *radius;
+  if (!radius && leeb.empty()) fail("--radius", "is missing");
+  m.radius = radius.value_or(std::numeric_limits<double>::infinity());
+  m.body = body;
   m.partner = partner != "wall" ? ImpactPartner::like_sphere : ImpactPartner::wall;
   m.fit_offset = of.has_machine && !offset, m.fit_compliance = of.has_machine && compliance;
   if (of.counterpart == Kind::Counterpart::indenter) {
@@ -199,11 +207,28 @@ Measurement CalibrationOptions::form(const Kind& of, const std::string& source) 
   return m;
 }
 
+namespace {
+
+void check_body(const Measurement& m, const std::string& path)
+{
+  if (m.body.mass == 0 && m.body.compliance == 0) return;
+  if (!m.kind->needs_density || m.partner != ImpactPartner::wall) fail(path, "no impact body hits here: --impact-body-mass and -compliance are of drops");
+  if (m.body.compliance > 0 && !m.counterpart)
+    fail("--impact-body-compliance", "needs the material of both: --ball or --wall; on a rigid wall give the speed and e of the contact alone");
+}
+
+}  // namespace
+
 Measurement CalibrationOptions::measurement(const std::string& path) const
 {
   Measurement read = read_measurement(path, curves());
+  if (kind == "leeb" && !read.is_leeb) fail(path, "holds no readings of a rebound tester", read.kind->header(), "leeb_hardness");
+  if (read.is_leeb && leeb.empty()) fail("--leeb", "is missing: the device has the ball, the mass and the speed of the readings");
+  if (read.is_leeb && !(ball.empty() && wall.empty())) fail("--leeb", "the device has its own ball, and the thick metal is what is fitted");
   Measurement m = form(*read.kind, path);
-  m.data = std::move(read.data);
+  m.data = std::move(read.data), m.is_leeb = read.is_leeb;
+  if (m.is_leeb) make_drops(m, leeb_device(leeb, "--leeb"), body.compliance);
+  check_body(m, path);
   if (m.kind->has_machine && offset)
     for (Datum& d : m.data) d.x -= *offset;
   complete_standard_deviations(m, relative_sd);
@@ -231,7 +256,7 @@ void CalibrationOptions::set_ranges(CalibrationRequest& r) const
 
 void CalibrationOptions::check_plausible_numbers(const CalibrationRequest& r) const
 {
-  check_plausible("--radius", "radius", "radius", *radius);
+  if (radius) check_plausible("--radius", "radius", "radius", *radius);
   if (density) check_plausible("--density", "density", "density", *density);
   if (youngs_modulus) check_plausible("--youngs-modulus", "youngs_modulus", "youngs_modulus", *youngs_modulus);
   if (yield_stress) check_plausible("--yield-stress", "yield_stress", "yield_stress", *yield_stress);

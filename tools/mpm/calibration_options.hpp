@@ -18,6 +18,8 @@ struct CalibrationOptions
   std::string kind = "platens", partner = "wall", name = "material", hardening = "linear";
   std::string materials;             ///< a file that holds the materials of wall, indenter and ball
   std::string wall, indenter, ball;  ///< names there; empty: rigid, and the ball is what is fitted
+  std::string leeb;  ///< impact device of a rebound tester
+  ImpactBody body;
   bool compliance = false, plain = false;
 
   void add_to(Options& command, bool needs_data);

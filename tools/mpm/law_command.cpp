@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "command.hpp"
+#include "impact_body_options.hpp"
 #include "law/law_file.hpp"
 #include "law_report.hpp"
 
@@ -15,6 +16,7 @@ namespace of_law {
 struct LawRequest : PairAsked
 {
   double velocity = 0;
+  ImpactBody body;
   bool json = false;
 };
 
@@ -38,7 +40,7 @@ void replay(const LawRequest& r)
   const Law law = read_law(r.law);
   const ChosenPair pair = choose_pair(law, r);
   const std::clock_t start = std::clock();
-  const StatedCollision found = collide(law, pair, r.velocity, r.law);
+  const StatedCollision found = collide(law, pair, r.velocity, r.law, r.body);
   const double cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 
   for (const std::string& warning : warnings_of(pair, r.velocity, found)) fmt::print(stderr, "mpm: {}\n", warning);
@@ -54,6 +56,7 @@ void define(Options& command)
   command.add_option("LAW", r->law, "law file of mpm table").required();
   define_pair_options(command, *r);
   command.add_option("--velocity", r->velocity, "approach speed, m/s").required();
+  define_impact_body(command, r->body, "the first body of the pair");
   command.add_flag("--json", r->json,
       "print one JSON object instead of the summary, with the keys of mpm impact. Also the error bound: error_force (relative) and error_restitution (absolute), null beyond damage_number_max and outside the velocity axis. The larger, both relative, is error_estimate. The law_kind is single, two-body, composed, corrected or reduced");
   command.callback([r] { replay(*r); });

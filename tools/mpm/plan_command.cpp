@@ -88,7 +88,7 @@ ordered_json pair_json(const deck::PairPlan& p)
   return {{"types", {p.meeting.a, p.meeting.b}}, {"wall", p.meeting.wall}, {"deformable_wall", p.meeting.deformable},
       {"materials", {printable(p.meeting.name_a), printable(p.meeting.name_b)}}, {"speed_max_m_per_s", json_number(p.speed)}, {"speed_by", p.speed_basis},
       {"onset_speed_m_per_s", known(p.onset)}, {"yield_velocity_m_per_s", known(p.yield_velocity)}, {"damage_number_max", json_number(p.damage_number)},
-      {"inertia_number_max", json_number(p.damage_number)}, {"overlap_over_radius_max", json_number(p.overlap)}, {"overlap_by", p.overlap_basis},
+      {"inertia_number_max", json_number(p.damage_number)}, {"strain_rate_max_per_s", json_number(p.strain_rate)}, {"overlap_over_radius_max", json_number(p.overlap)}, {"overlap_by", p.overlap_basis},
       {"contact_time_min_s", json_number(p.contact_time)}, {"time_step_s", json_number(p.time_step)}, {"needs_table", p.needs_table}, {"law_error", error},
       {"verdict", verdict(p)}};
 }
@@ -196,6 +196,20 @@ void print_tangential(const PlannedDeck& d)
   fmt::print("tangential law: {} ({})\n", need.pair ? "plastic" : "history serves", need.reason);
 }
 
+/// One line: the strain rate of the impacts beside that of the test which the yield stress may be from.
+void print_strain_rate(const deck::Plan& plan)
+{
+  double rate = 0;
+  for (const deck::PairPlan& p : plan.pairs) rate = std::max(rate, p.strain_rate);
+  constexpr double slow = 1e-3;  // 1/s, of a press or a hardness test
+  if (!(rate > slow)) return;
+  // Johnson and Cook's coefficients of 4340 and 1020 steel (docs/evidence/leeb.md); e follows Y by half or so
+  const double least = 100 * 0.014 * std::log(rate / slow), most = 100 * 0.022 * std::log(rate / slow);
+  fmt::print("strain rate: up to {:.2g} 1/s in impacts. A yield stress of a slow press or a hardness is too low for them, "
+             "of steels by {:.0f} to {:.0f} %, e by half. Polymers and organics depend on the rate more\n",
+      rate, least, most);
+}
+
 /// Requirements on the law and on the simulation.
 void print_needs(const PlannedDeck& d)
 {
@@ -203,6 +217,7 @@ void print_needs(const PlannedDeck& d)
   if (plan.damage_number > 0)
     fmt::print("axes of the law: overlap; velocity {}\n",
         plan.axis_matters ? fmt::format("(I up to {:.2g})", plan.damage_number) : fmt::format("not needed (I stays below {:g})", deck::negligible_damage_number));
+  print_strain_rate(plan);
   if (plan.complete() && !plan.pairs.empty()) print_tangential(d);
   if (const deck::PairPlan* pair = plan.stiffest())
     fmt::print("time step: up to {} s (1/{:g} of the period of types {} at d/R* {:.3g}); the deck has {:.3g} s\n", step_text(plan.time_step), 1 / step_fraction,

@@ -128,10 +128,10 @@ std::vector<double> ComposedModel::changes(const PairBody& own, const PairBody& 
   const PairBody &sphere = measured_->counterpart_is_ball ? other : own,
                  &wall = measured_->counterpart_is_ball ? own : other;
   const double radius = measured_->radius, density = sphere.material().density;
-  const double per_speed = std::sqrt(density / fitted.yield_stress);
+  const double per_speed = std::sqrt(measured_->sphere_density(density) / fitted.yield_stress);
   LawRange options;
   options.depth = Atlas::depth;
-  options.fastest = std::clamp(1.2 * measured_->largest_x() * per_speed, 0.03, SphereLaws::fastest);
+  options.fastest = std::clamp(1.2 * measured_->largest_x() * std::sqrt(density / fitted.yield_stress), 0.03, SphereLaws::fastest);
   options.tolerance = 0;  // laws with their velocity axis: one left out here and there would be a jump between candidates
   Law law;
   law.bodies[sphere_body].material = sphere.material();
@@ -146,7 +146,7 @@ std::vector<double> ComposedModel::changes(const PairBody& own, const PairBody& 
   const SphereLaws rigid(*atlas_, MaterialRatios::of(fitted));
   std::vector<double> change;
   for (const Datum& d : measured_->data)
-    change.push_back(replay_collision(pair, radius, mass, d.x, replay_steps).restitution -
+    change.push_back(replay_collision(pair, radius, mass, d.x, replay_steps, measured_->body).restitution -
                      rigid.impact(d.x * per_speed).restitution);
   return change;
 }

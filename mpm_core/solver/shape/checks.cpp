@@ -169,6 +169,17 @@ void check_revolution(const Particle& p, const std::string& where)
          fmt::format("kind = \"{}\"", p.shape->kind()), "a sphere or a profile");
 }
 
+Particle fixed_to(Particle p, const ImpactBody& body, const std::string& where)
+{
+  if (body.mass == 0) return p;
+  if (p.materials.size() > 1) fail(where, "an impact body goes with a particle of one material");
+  const double own = p.materials.front().density * p.volume();
+  if (!(body.mass >= own))
+    fail(where, "'impact_body_mass' is below the particle's own", fmt::format("{:g} kg", body.mass), fmt::format("{:.4g} kg or more", own));
+  p.materials.front().density *= body.mass / own;
+  return p;
+}
+
 void validate(const Particle& p, const std::string& where)
 {
   if (!(p.radius > 0 && std::isfinite(p.radius)))

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/impact_body.hpp"
 #include "solver/material/material.hpp"
 #include "solver/shape/revolved.hpp"
 #include "solver/shape/shape.hpp"
@@ -39,6 +40,7 @@ struct Particle
   std::vector<Layer> layers{};          ///< from the surface inwards
   std::vector<Inclusion> inclusions{};  ///< later ones on top of earlier ones and of layers
   SharedShape shape{};                  ///< null: the body of revolution
+  ImpactBody impact_body{};             ///< in impacts: see fixed_to()
 
   /// A homogeneous sphere.
   static Particle sphere(double radius, const Material& material);
@@ -80,6 +82,11 @@ SharedShape shape_of(const Particle& particle);
 /// Throws Error "WHERE: ..." with one sentence if the geometry cannot be used. Materials themselves are
 /// checked by validate(Material).
 void validate(const Particle& particle, const std::string& where);
+
+/// The particle with the mass of what it is fixed to, spread over its own volume: waves in it are slower, and forces
+/// and work are those of the heavier body as long as the impact is slow beside them. Throws Error "WHERE: ..." where
+/// it has several materials, or is heavier by itself.
+Particle fixed_to(Particle particle, const ImpactBody& body, const std::string& where);
 
 /// Throws Error "WHERE: ..." if the particle has a shape, where only bodies of revolution are taken.
 void check_revolution(const Particle& particle, const std::string& where);
