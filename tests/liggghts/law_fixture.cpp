@@ -145,7 +145,7 @@ int run(int argc, char** argv)
   if (word(1) == "mpm") {
     const granulaw::Law law = granulaw::read_law(word(2));
     const granulaw::PairLaw pair = granulaw::resolve_pair(law, word(3), word(4), word(2));
-    print(granulaw::replay_collision(pair, number(5), number(6), number(7), 20000, number(8)));
+    print(granulaw::replay_collision(pair, number(5), number(6), number(7), 20000, {.compliance = number(8)}));
     return 0;
   }
   if (word(1) == "collision" || word(1) == "still") {
