@@ -18,7 +18,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 STEEL = ["--density", "7850", "--youngs-modulus", "210e9", "--poisson-ratio", "0.29"]
-BODY = {"D": (5.45e-3, 2.05)}  # kg, m/s
+BODY = {"D": (5.45e-3, 2.05, 1.5e-3), "C": (3.1e-3, 1.4, 1.5e-3), "G": (20e-3, 3.0, 2.5e-3)}  # kg, m/s, m, as mpm calibrate --leeb has
 FALL = 2 * 9.81 * 1e-3         # m2/s2: the coil is 1 mm above the surface
 STRAIN = 0.04                  # plastic, of the static flow stress
 # case, HLD, strength and exponent of Swift's law (MPa), offset, Johnson and Cook's C: as the hardness and class of the steel ask
@@ -68,17 +68,17 @@ class Tool:
         path.write_text(SOLID.format(yield_stress, more))
         return str(path)
 
-    def restitution(self, yield_stress, compliance=0):
-        """e of device D on a perfectly plastic steel, by the law."""
+    def restitution(self, yield_stress, device, compliance=0):
+        """e of the device on a perfectly plastic steel, by the law."""
         law = str(self.folder / "law.h5")
         subprocess.run([self.mpm, "table", self.materials(yield_stress), "--pair", "wc:steel", "-o", law], check=True, capture_output=True)
-        mass, velocity = BODY["D"]
+        mass, velocity, radius = BODY[device]
         more = ["--impact-body-compliance", str(compliance)] if compliance else []
-        return self.json("law", law, "--pair", "wc:steel", "--radius", "1.5e-3", "--radius2", "inf", "--velocity", str(velocity),
+        return self.json("law", law, "--pair", "wc:steel", "--radius", str(radius), "--radius2", "inf", "--velocity", str(velocity),
                          "--impact-body-mass", str(mass), *more)["e"]
 
     def direct(self, yield_stress, more, compliance=0):
-        mass, velocity = BODY["D"]
+        mass, velocity, _ = BODY["D"]
         body = ["--impact-body-compliance", str(compliance)] if compliance else []
         return self.json("impact", self.materials(yield_stress, more), "--particle", "ball", "--wall", "steel", "--velocity", str(velocity),
                          "--impact-body-mass", str(mass), "--resolution", "16", "--no-estimate", *body)["e"]
@@ -94,23 +94,37 @@ def flow_stress(row):
     return 1e6 * float(row["Rm_MPa"]) * (math.e * STRAIN / n) ** n
 
 
+def hardness_yield(tool, row):
+    column = {"HB": "brinell_30_hardness_Pa", "HV": "hardness_Pa"}[row["scale"]]
+    return tool.yield_stress(column, float(row["hardness"]) * 9.80665e6)[0]
+
+
+def class_of(row):
+    """Of the table: steels by ranges of Brinell hardness, or by name."""
+    if row["set"] != "conversions":
+        return row["set"]
+    low = max(edge for edge in (0, 250, 350, 450, 550) if float(row["hardness"]) >= edge)
+    return {0: "conversions, HB below 250", 550: "conversions, HB over 550"}.get(low, f"conversions, HB {low} to {low + 100}")
+
+
 def compared(tool):
     """One dict a row: the set, what was given, e and yield stress measured and computed."""
-    for name, given, static in [("brinell.csv", lambda r: f"HB {r['HB']}", lambda r: tool.yield_stress("brinell_30_hardness_Pa", float(r["HB"]) * 9.80665e6)[0]),
+    for name, given, static in [("hardness.csv", lambda r: f"{r['scale']} {r['hardness']}", lambda r: hardness_yield(tool, r)),
                                 ("tensile.csv", lambda r: f"{r['class']}, Rm {r['Rm_MPa']} MPa", flow_stress)]:
         for row in rows_of(name):
-            rebound, answer = tool.yield_stress("leeb_hardness", row["HLD"], "--leeb", "D")
+            device = row.get("device", "D")
+            rebound, answer = tool.yield_stress("leeb_hardness", row["HL"], "--leeb", device)
             y, flow = static(row), answer["static_flow_stress"]
-            e = tool.restitution(y)
-            yield {"set": row.get("set", "Brinell"), "given": given(row), "HLD": row["HLD"], "static_Pa": f"{y:.4g}", "e_measured": f"{at_surface(float(row['HLD'])):.4f}",
-                   "e_law": f"{e:.4f}", "e_law_body_1e-9": f"{tool.restitution(y, 1e-9):.4f}", "rebound_Pa": f"{rebound:.4g}", "rebound_over_static": f"{rebound / y:.3f}",
+            yield {"set": class_of(row), "device": device, "given": given(row), "HL": row["HL"], "static_Pa": f"{y:.4g}",
+                   "e_measured": f"{at_surface(float(row['HL']), BODY[device][1]):.4f}", "e_law": f"{tool.restitution(y, device):.4f}",
+                   "e_law_body_1e-9": f"{tool.restitution(y, device, 1e-9):.4f}", "rebound_Pa": f"{rebound:.4g}", "rebound_over_static": f"{rebound / y:.3f}",
                    "stated_Pa": f"{flow['value']:.4g}", "low95_Pa": f"{flow['low95']:.4g}", "high95_Pa": f"{flow['high95']:.4g}"}
 
 
 def table(rows):
     print("| set | n | law - measured, e | with a body of 1e-9 m/N | rebound/static | static within the stated interval | within 15 % |\n|---|---|---|---|---|---|---|")
     for name in dict.fromkeys(r["set"] for r in rows):
-        own = [{k: float(r[k]) for k in r if k not in ("set", "given")} for r in rows if r["set"] == name]
+        own = [{k: float(r[k]) for k in r if k not in ("set", "device", "given")} for r in rows if r["set"] == name]
         off = [r["e_law"] - r["e_measured"] for r in own]
         body = [r["e_law_body_1e-9"] - r["e_measured"] for r in own]
         ratio = [r["rebound_over_static"] for r in own]
