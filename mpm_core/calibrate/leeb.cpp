@@ -87,7 +87,7 @@ Estimate95 rate_factor_of(const Atlas& atlas, Measurement drops, double leeb_har
   drops.data = {{.x = velocity, .y = at_surface(leeb_hardness / 1000, velocity)}};
   Measurement block;
   block.kind = &kind_named("Brinell hardness 30", "--reference"), block.source = "--reference";
-  block.data = {{.y = brinell_hardness}};
+  block.data = {{.y = brinell_hardness * kilogram_force}};
   block.kind->check_rows(block);
   return over(yield_shown(atlas, drops, known), yield_shown(atlas, block, known));
 }

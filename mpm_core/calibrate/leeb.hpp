@@ -33,7 +33,7 @@ struct Estimate95
 /// conversion tables (docs/evidence/leeb.md). A body that is taken as rigid counts as rate.
 Estimate95 usual_rate_factor(double compliance);
 /// The same of one tester by its reference block: what the block's HL shows over what its Brinell hardness
-/// (10/3000, Pa) does. `drops`: a measurement of the device, whose reading is replaced; `known`: of the block.
+/// (HBW 10/3000) does. `drops`: a measurement of the device, whose reading is replaced; `known`: of the block.
 Estimate95 rate_factor_of(const Atlas& atlas, Measurement drops, double leeb_hardness, double brinell_hardness,
                           const CandidateMaterial& known);
 

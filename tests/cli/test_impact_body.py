@@ -33,3 +33,11 @@ def test_impact_body():
                             ((*impact, "--impact-body-mass", "1e-4"), "is below the particle's own"),
                             ((*impact[:4], "--velocity", "1", *mass, "--friction", "0.1"), "turns with its sphere")]:
         assert sentence in mpm(*words, code=None).stderr
+
+
+def test_a_device_without_readings():
+    """The radius of a rebound tester is no drop's, and its device is of no use to drops."""
+    Path("drops.csv").write_text("velocity_m_per_s,restitution\n1,0.7\n2,0.6\n")
+    words = "calibrate", "drops.csv", "--leeb", "D", "--density", "1500", "--youngs-modulus", "1e10", "--fit", "yield_stress"
+    assert "--radius: is missing" in mpm(*words, code=None).stderr
+    assert "--leeb: goes with leeb_hardness" in mpm(*words, "--radius", "1e-3", code=None).stderr

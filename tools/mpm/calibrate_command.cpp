@@ -123,8 +123,7 @@ std::optional<Estimate95> static_flow_stress(const CalibrateRequest& r, const Ca
   Estimate95 factor = usual_rate_factor(reading->body.compliance);
   if (!r.reference.empty()) {
     const auto [leeb, brinell] = reference_of(r.reference);
-    constexpr double per_brinell = 9.80665e6;  // Pa
-    factor = rate_factor_of(problem.laws().atlas(), *reading, leeb, brinell * per_brinell, problem.request().known);
+    factor = rate_factor_of(problem.laws().atlas(), *reading, leeb, brinell, problem.request().known);
   }
   const ParameterProfile& p = fitted->profile;
   return over({p.value, p.within95.low, p.within95.high}, factor);

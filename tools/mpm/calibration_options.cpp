@@ -181,13 +181,13 @@ const Kind& CalibrationOptions::curves() const
   return **std::find_if(kinds().begin(), kinds().end(), [&](const Kind* k) { return k->word && k->word == kind; });
 }
 
-Measurement CalibrationOptions::form(const Kind& of, const std::string& source) const
+Measurement CalibrationOptions::form(const Kind& of, const std::string& source, bool device_has_radius) const
 {
   Measurement m;
   m.kind = &of;
   m.source = source;
   if (of.needs_density && !density) fail("--density", "is missing: impacts depend on it");
-  if (!radius && leeb.empty()) fail("--radius", "is missing");
+  if (!radius && !device_has_radius) fail("--radius", "is missing");
   m.radius = radius.value_or(std::numeric_limits<double>::infinity());
   m.body = body;
   m.partner = partner != "wall" ? ImpactPartner::like_sphere : ImpactPartner::wall;
@@ -225,7 +225,7 @@ Measurement CalibrationOptions::measurement(const std::string& path) const
   if (kind == "leeb" && !read.is_leeb) fail(path, "holds no readings of a rebound tester", read.kind->header(), "leeb_hardness");
   if (read.is_leeb && leeb.empty()) fail("--leeb", "is missing: the device has the ball, the mass and the speed of the readings");
   if (read.is_leeb && !(ball.empty() && wall.empty())) fail("--leeb", "the device has its own ball, and the thick metal is what is fitted");
-  Measurement m = form(*read.kind, path);
+  Measurement m = form(*read.kind, path, read.is_leeb);
   m.data = std::move(read.data), m.is_leeb = read.is_leeb;
   if (m.is_leeb) make_drops(m, leeb_device(leeb, "--leeb"), body.compliance);
   check_body(m, path);
@@ -292,6 +292,8 @@ CalibrationRequest CalibrationOptions::request() const
     if (std::find(r.fit.begin(), r.fit.end(), parameter) == r.fit.end() && !(value_of(r.known, parameter) > 0))
       fail(option, fmt::format("is missing: give it, or add {} to --fit", name_of(parameter)));
   for (const std::string& path : data) r.measurements.push_back(measurement(path));
+  if (!leeb.empty() && std::none_of(r.measurements.begin(), r.measurements.end(), [](const Measurement& m) { return m.is_leeb; }))
+    fail("--leeb", "goes with leeb_hardness, which no file holds");
   set_ranges(r);
   check_plausible_numbers(r);
   r.known.density = density.value_or(1000);  // no curve of force depends on it

@@ -25,8 +25,8 @@ struct CalibrationOptions
   void add_to(Options& command, bool needs_data);
   /// The request, its files read and its words understood. Throws Error.
   CalibrationRequest request() const;
-  /// A measurement of this kind without data: radii, partner, machine.
-  Measurement form(const Kind& kind, const std::string& source) const;
+  /// A measurement of this kind without data: radii, partner, machine. `device_has_radius`: --radius may be left out.
+  Measurement form(const Kind& kind, const std::string& source, bool device_has_radius = false) const;
   /// The kind that --kind chooses of those whose columns are alike.
   const Kind& curves() const;
 

@@ -98,8 +98,6 @@ double brinell(const CandidateMaterial& m, double load)
   return 2 * load / (M_PI * (1 - std::sqrt(1 - u * u)));
 }
 
-constexpr double kilogram_force = 9.80665e6;  // per mm^2, Pa
-
 /// The table is of dents of 0.25 to 0.55 of the ball's diameter.
 void check_dents(const Measurement& m, double load)
 {

@@ -116,6 +116,9 @@ struct FlowShown
 /// None: the measurement shows the flow curve, or its ratio to the yield stress was given.
 std::optional<FlowShown> flow_shown(const Measurement& measurement, const CandidateMaterial& material);
 
+/// Pa, a kilogram-force per square millimetre: the unit of HB and HV.
+inline constexpr double kilogram_force = 9.80665e6;
+
 /// All data of a measurement are of one true value; `sd`: of the model.
 Prediction same_value(const Measurement& measurement, double value, double sd);
 
