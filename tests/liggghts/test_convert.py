@@ -279,6 +279,14 @@ class TestTime(Convert):
         _, said = self.convert()
         assert re.search("the runs last .* s in all, 0.002 s in the original", said["not_converted"][0])
 
+    def test_a_loop_of_single_steps_beside_longer_runs_is_named(self):
+        """It follows a time step that the longer loop keeps from being changed: it lasts a sixth, hidden in the total."""
+        loop = "variable {0} loop ${{n}}\nlabel {0}\nrun {1}\nnext {0}\njump SELF {0}\n"
+        self.write("in.deck", "variable dt equal 2e-5\nvariable n equal 0.0002/${dt}\n" + DECK + self.FAST.replace("timestep 2e-5", "timestep ${dt}") + loop.format("i", 1) + loop.format("j", 2000))
+        _, said = self.convert()
+        assert any(re.search(r"in.deck:\d+: lasts .* s, 0.0002 s in the original", line) for line in said["not_converted"]), said["not_converted"]
+        assert len(said["not_converted"]) == 1
+
     def test_a_step_by_a_formula(self):
         self.write("in.deck", "variable tenth equal 2e-4\nvariable dt equal ${tenth}*0.1\n" + DECK + self.FAST.replace("timestep 2e-5", "timestep ${dt}") + "variable n equal 0.01/${dt}\nrun ${n}\n")
         now, said = self.convert()

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <set>
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
@@ -107,26 +106,50 @@ double duration(const deck::Scene& scene)
 /// To 2 %: counts are rounded.
 bool lasts_as_long(const deck::Scene& now, const deck::Scene& before) { return std::abs(duration(now) - duration(before)) <= 0.02 * duration(before); }
 
-/// Runs that last another time than the original's, and insertions that bring in other numbers.
+/// All runs of one line of a deck: those of a loop together.
+struct RunsOfLine
+{
+  std::string where;
+  double time = 0, steps = 0;  ///< of all passes; s
+  int passes = 0;
+};
+
+/// In the order in which the lines run first.
+std::vector<RunsOfLine> runs_by_line(const deck::Scene& scene)
+{
+  std::vector<RunsOfLine> lines;
+  for (const deck::Run& run : scene.runs) {
+    auto line = std::find_if(lines.begin(), lines.end(), [&](const RunsOfLine& l) { return l.where == run.where; });
+    if (line == lines.end()) line = lines.insert(line, {run.where});
+    line->time += run.steps * run.time_step, line->steps += run.steps, ++line->passes;
+  }
+  return lines;
+}
+
+/// Runs that last another time than the original's, and insertions that bring in other numbers. One run of a single step starts something: it stays one.
 void compare_runs(deck::Converted& c, const deck::Scene& now)
 {
-  const double brought = c.planned.scene.count(), brings = now.count();
+  const deck::Scene& original = c.planned.scene;
+  const double brought = original.count(), brings = now.count();
   if (std::abs(brings - brought) > 0.01 * brought + 1)
     c.result.left.push_back(fmt::format("the insertions bring in {:.0f} particles, {:.0f} in the original", brings, brought));
-  const std::vector<deck::Run>&before = c.planned.scene.runs, &after = now.runs;
-  if (before.size() != after.size()) {
-    if (!lasts_as_long(now, c.planned.scene)) c.result.left.push_back(fmt::format("the converted deck has {} runs, the original {}", after.size(), before.size()));
-    return;
-  }
-  if (!lasts_as_long(now, c.planned.scene))
-    c.result.left.push_back(fmt::format("the runs last {:.4g} s in all, {:.4g} s in the original", duration(now), duration(c.planned.scene)));
-  std::set<std::string> told;
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    const double was = before[k].steps * before[k].time_step, is = after[k].steps * after[k].time_step;
-    if (before[k].steps <= 1 || std::abs(is / was - 1) < 0.01 + 2 / after[k].steps) continue;
-    const std::string text = fmt::format("{}: lasts {:.4g} s, {:.4g} s in the original", before[k].where, is, was);
-    if (told.insert(text).second) c.result.left.push_back(text);
-  }
+  if (!lasts_as_long(now, original)) c.result.left.push_back(fmt::format("the runs last {:.4g} s in all, {:.4g} s in the original", duration(now), duration(original)));
+  std::vector<std::string> told;
+  const auto compare = [&](const std::string& where, double was, double is, double steps) {
+    if (std::abs(is / was - 1) < 0.01 + 2 / steps) return;
+    const std::string text = fmt::format("{}: lasts {:.4g} s, {:.4g} s in the original", where, is, was);
+    if (std::find(told.begin(), told.end(), text) == told.end()) told.push_back(text);
+  };
+  const std::vector<RunsOfLine> before = runs_by_line(original), after = runs_by_line(now);
+  if (before.size() != after.size()) told.push_back(fmt::format("{} lines of the converted deck run, {} of the original", after.size(), before.size()));
+  for (std::size_t k = 0; before.size() == after.size() && k < before.size(); ++k)
+    if (before[k].steps > 1) compare(before[k].where, before[k].time, after[k].time, after[k].steps);
+  if (original.runs.size() == now.runs.size() && told.empty())  // lines that differ in single passes only
+    for (std::size_t k = 0; k < now.runs.size(); ++k) {
+      const deck::Run &was = original.runs[k], &is = now.runs[k];
+      if (was.steps > 1) compare(was.where, was.steps * was.time_step, is.steps * is.time_step, is.steps);
+    }
+  c.result.left.insert(c.result.left.end(), told.begin(), told.end());
 }
 
 /// The deck by the choices made, with its includes, as LIGGGHTS reads it. Variables follow the time step, unless more than counts of steps
