@@ -98,7 +98,7 @@ class ElementHost : public ContactInquiry
     first_step_ = lmp_->update->ntimestep;
     units_ = types.units;
     const ParticleSizes sizes = particle_sizes(lmp_);
-    TangentialChoice tangential{.damping = tangential_damping_ ? setup_->options.tangential_damping.value_or(default_tangential_damping) : 0.0,
+    TangentialChoice tangential{.damping = tangential_damping_ ? setup_->options.tangential_damping.value_or(usual_shear_damping) : 0.0,
                                 .computed = setup_->options.tangential_computed.value_or(false)};
     if constexpr (!std::same_as<Tangential, Frictionless>) {
       registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);

@@ -159,12 +159,7 @@ void MpmPhysics::check_flow_stress(const Contact& contact) const
 
 SizeChoice MpmPhysics::laws_by_size(int i, int j) const
 {
-  const std::string &a = material(i), &b = material(j);
-  const std::vector<double> shares = setup_->law->law.size_shares(a, b);
-  if (a == b) return {ShareOf::smaller, shares};
-  const BodyLaw *first = body(i), *second = body(j);
-  const bool i_yields = !first || !second || yields_first(first->material, second->material);
-  return {i_yields ? ShareOf::i : ShareOf::j, shares};
+  return size_choice(setup_->law->law, material(i), material(j));
 }
 
 MpmContact MpmPhysics::resolve(int i, int j, bool rigid, const std::string& where, double radius_i,

@@ -7,7 +7,7 @@
 #include "liggghts_plugin/books/contact_statistics.hpp"
 #include "liggghts_plugin/deck/model_info.hpp"
 #include "liggghts_plugin/deck/particle_sizes.hpp"
-#include "liggghts_plugin/deck/size_choice.hpp"
+#include "law/size_choice.hpp"
 #include "liggghts_plugin/deck/types.hpp"
 
 // Parts of a normal model: NAME_physics.hpp, NAME_physics.cpp and a line in models.list.

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "law/contact_limits.hpp"
 #include "contact/body_behind.hpp"
+#include "contact/damping.hpp"
 #include "contact/element.hpp"
 #include "contact/pair.hpp"
 #include "contact/plastic_shear.hpp"
@@ -288,10 +289,7 @@ class PairTable
     entry.damage_number_per_speed2 = contact.damage_number_per_speed2();
     entry.shear = ShearPair::of(shear_moduli, friction, tangential.damping, stretch, tangential.computed);
     entry.element.yield_overlap = contact.yield_overlap();
-    // sqrt(5) Z sqrt(k m) d^(1/4) makes e = exp(-pi Z/sqrt(1 - Z^2)) at every speed (Antypov & Elliott
-    // 2011); k = 4/3 E* sqrt(R*), stretched 1/s^2.5
-    entry.element.damping = std::sqrt(5.0) * damping_ratio * std::sqrt(4.0 / 3.0 * contact.pair_modulus()) *
-                            std::pow(stretch, -1.25);
+    entry.element.damping = elastic_dashpot(damping_ratio, contact.pair_modulus(), stretch);
   }
   static void complete_tangential(Entry& entry, const BodiesInShear& bodies)
   {

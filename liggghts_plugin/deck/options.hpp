@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/damping.hpp"
 #include "liggghts_plugin/deck/model_info.hpp"
 
 namespace granulaw::plugin {
@@ -12,7 +13,7 @@ namespace granulaw::plugin {
 /// Viscous damping of contacts where the law is elastic.
 struct ElasticDamping
 {
-  double ratio = 0.001;  ///< fraction of critical; an elastic impact then has e = exp(-pi Z/sqrt(1-Z^2))
+  double ratio = usual_elastic_damping;  ///< fraction of critical; an elastic impact then has e = exp(-pi Z/sqrt(1-Z^2))
   bool from_restitution = false;  ///< Z of each pair of types from the deck's coefficientRestitution
 
   bool operator==(const ElasticDamping&) const = default;
@@ -51,9 +52,6 @@ struct Options
   /// Takes options that a wall's command leaves open from the pair style's.
   void inherit(const Options& pair);
 };
-
-/// Tangential damping where the deck says nothing: see docs, "Tangential force".
-inline constexpr double default_tangential_damping = 0.1;
 
 /// Every keyword that may stand behind the models: the plug-in's own, then those that LIGGGHTS reads.
 std::vector<std::string> keyword_names(const ModelInfo& model, bool is_wall);

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "liggghts_plugin/deck/size_choice.hpp"
+#include "law/size_choice.hpp"
 
 namespace LAMMPS_NS {
 class FixTemplateSphere;

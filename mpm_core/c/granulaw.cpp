@@ -2,31 +2,56 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "base/error.hpp"
+#include "base/version.hpp"
+#include "contact/damping.hpp"
 #include "contact/element.hpp"
 #include "contact/plastic_shear.hpp"
 #include "contact/tabulated.hpp"
 #include "law/law_file.hpp"
+#include "law/size_choice.hpp"
+#include "law/stated_collision.hpp"
 
 using namespace granulaw;
 
 struct granulaw_law
 {
   std::shared_ptr<const Law> law;
+  std::vector<const LawMaterial*> materials;
 };
+
+namespace {
+
+/// The law of one ratio of sizes.
+template <class Element>
+struct SizedLaw
+{
+  PairLaw law;
+  Element element;
+  double largest_overlap;  // over R*
+};
+template <class Tangential>
+using SizedLaws = std::vector<SizedLaw<ContactElement<Tabulated, Tangential>>>;
+
+}  // namespace
 
 struct granulaw_contact_law
 {
-  std::shared_ptr<const Law> law;  // its curve is the element's
-  std::variant<ContactElement<Tabulated>, ContactElement<Tabulated, Spring>,
-               ContactElement<Tabulated, PlasticShear>>
-      element;
+  std::shared_ptr<const Law> law;  // its curves are the elements'
+  PairNames names;
+  Scale scale;
+  SizeChoice choice;
+  LawFinder finder;
+  std::variant<SizedLaws<Frictionless>, SizedLaws<Spring>, SizedLaws<PlasticShear>> laws;
 };
 
 static_assert(GRANULAW_MECHANISMS == static_cast<int>(Mechanism::count));
@@ -36,7 +61,6 @@ static_assert(GRANULAW_PLASTIC == static_cast<int>(Mechanism::plastic) &&
               GRANULAW_SHEAR == static_cast<int>(Mechanism::shear));
 
 namespace {
-
 int failed(int code, granulaw_why* why, std::string_view sentence)
 {
   if (why) {
@@ -63,6 +87,39 @@ int guarded(int code, granulaw_why* why, Work&& work)
   }
 }
 
+
+/// True if a struct of this size is all that this library knows; else false, with a sentence.
+template <class Struct>
+bool is_known(const Struct* given, granulaw_why* why, const char* name)
+{
+  const auto* bytes = reinterpret_cast<const unsigned char*>(given);
+  if (given->size < sizeof(Struct))
+    return failed(0, why, std::string(name) + ": its member `size` is not set to sizeof(" + name + ")"), false;
+  // a program of a later version says nothing that this library would not do
+  if (std::any_of(bytes + sizeof(Struct), bytes + given->size, [](unsigned char byte) { return byte != 0; }))
+    return failed(0, why, std::string(name) + ": it has a member that is unknown to this older library"), false;
+  return true;
+}
+
+/// The k-th of structs as large as the first, which another version of the header may have.
+template <class Struct>
+Struct& at(Struct* first, std::size_t k)
+{
+  using Byte = std::conditional_t<std::is_const_v<Struct>, const char, char>;
+  return *reinterpret_cast<Struct*>(reinterpret_cast<Byte*>(first) + k * first->size);
+}
+
+/// What the caller's struct is set to, but for its size. Members that this library does not know stay.
+template <class Struct>
+int answer(Struct* to, Struct values)
+{
+  if (!to) return GRANULAW_NO_POINTER;
+  if (to->size < sizeof(Struct)) return GRANULAW_NO_SIZE;
+  values.size = to->size;
+  *to = values;
+  return GRANULAW_OK;
+}
+
 /// A number of granulaw_pair: 0 stands for `usual`.
 double said(double value, double usual)
 {
@@ -72,14 +129,15 @@ double said(double value, double usual)
 const char* wrong_number(const granulaw_pair& pair)
 {
   const auto positive = [](double value) { return value >= 0 && std::isfinite(value); };
-  if (!(pair.radius_a >= 0 && pair.radius_b >= 0) || (pair.radius_a > 0) != (pair.radius_b > 0) ||
-      (std::isinf(pair.radius_a) && std::isinf(pair.radius_b)))
-    return "radius_a and radius_b: both over 0, one of them infinity for a deformable wall, or both 0";
-  if (!positive(pair.length) || !positive(pair.mass)) return "length and mass: over 0, or 0 for SI";
+  if (!(pair.radius_a >= 0 && pair.radius_b >= 0) || (pair.radius_a > 0) != (pair.radius_b > 0) || std::isinf(pair.radius_a))
+    return "radius_a and radius_b: both over 0, radius_b infinity for a wall, or both 0";
+  if (!positive(pair.length) || !positive(pair.mass) || !positive(pair.time))
+    return "length, mass and time: over 0, or 0 for SI";
   if (!(pair.stretch == 0 || (pair.stretch >= 1 && std::isfinite(pair.stretch))))
     return "stretch: 1 or more, or 0 for 1";
-  if (!positive(pair.friction) || !positive(pair.shear_stiffness) || !positive(pair.shear_damping))
-    return "friction, shear_stiffness and shear_damping: 0 or more";
+  if (!positive(pair.friction) || !positive(pair.shear_stiffness) || !positive(pair.shear_damping) ||
+      !positive(pair.elastic_damping))
+    return "friction, shear_stiffness, shear_damping and elastic_damping: 0 or more";
   return nullptr;
 }
 
@@ -91,28 +149,76 @@ ElasticBody body_of(const Law& law, const std::string& name)
   return {material.youngs_modulus, material.poisson_ratio};
 }
 
-void make_element(granulaw_contact_law& contact, const granulaw_pair& pair)
+constexpr double wall_radius = 1e300;  // in place of infinity: its share of a sum is a number
+
+/// 0: unknown.
+Radii radii(double radius)
 {
-  const Scale scale{said(pair.length, 1.0), said(pair.mass, 1.0), said(pair.stretch, 1.0)};
-  const PairLaw law = resolve_pair(*contact.law, pair.a, pair.b, "granulaw_contact", said(pair.radius_a, 1.0),
-                                   said(pair.radius_b, 1.0));
-  const Tabulated normal(law, law.measure(), scale);
-  BodiesInShear bodies = BodiesInShear::of(body_of(*contact.law, pair.a), body_of(*contact.law, pair.b), pair.shear_damping,
-                                           scale.pressure());
-  bodies.stiffness = said(pair.shear_stiffness, bodies.stiffness);
-  const ShearPair spring = ShearPair::of(bodies.stiffness, pair.friction, pair.shear_damping, scale.stretch);
-  if (pair.yields_in_shear) {
-    if (const std::string why = unknown_flow_stress(*contact.law, law); !why.empty()) fail("granulaw_contact", why);
-    contact.element = ContactElement<Tabulated, PlasticShear>{normal, PlasticShear(normal, spring, bodies)};
-  } else if (pair.friction == 0.0)
-    contact.element = ContactElement<Tabulated>{normal};
-  else
-    contact.element = ContactElement<Tabulated, Spring>{normal, Spring(spring)};
+  return radius > 0 ? Radii{std::min(radius, wall_radius), std::min(radius, wall_radius)} : Radii{};
 }
 
-const Tabulated& normal_of(const granulaw_contact_law& contact)
+template <class Tangential>
+void make_laws(granulaw_contact_law& contact, const granulaw_pair& pair)
 {
-  return std::visit([](const auto& element) -> const Tabulated& { return element.normal; }, contact.element);
+  const auto& [a, b] = contact.names;
+  const Scale& scale = contact.scale;
+  BodiesInShear bodies =
+      BodiesInShear::of(body_of(*contact.law, a), body_of(*contact.law, b), pair.shear_damping, scale.pressure());
+  bodies.stiffness = said(pair.shear_stiffness, bodies.stiffness);
+  const ShearPair spring = ShearPair::of(bodies.stiffness, pair.friction, pair.shear_damping, scale.stretch);
+  SizedLaws<Tangential> laws;
+  for (std::size_t k = 0; k < contact.choice.count(); ++k) {
+    const bool serves = contact.choice.serves(k, radii(pair.radius_a), radii(pair.radius_b));
+    const auto [radius_a, radius_b] = serves ? std::pair(pair.radius_a, pair.radius_b) : contact.choice.radii_of(k, {}, {});
+    PairLaw law = resolve_pair(*contact.law, a, b, "granulaw_contact", radius_a, radius_b);
+    if (pair.no_waves) law.radiation = 0;
+    const Tabulated normal(law, law.measure(), scale);
+    ContactElement<Tabulated, Tangential> element{normal};
+    if constexpr (std::same_as<Tangential, Spring>) element.tangential = Spring(spring);
+    if constexpr (std::same_as<Tangential, PlasticShear>) {
+      if (const std::string why = unknown_flow_stress(*contact.law, law); !why.empty()) fail("granulaw_contact", why);
+      element.tangential = PlasticShear(normal, spring, bodies);
+    }
+    element.damping = elastic_dashpot(pair.elastic_damping, normal.pair_modulus(), scale.stretch);
+    element.yield_overlap = normal.yield_overlap();
+    laws.push_back({law, element, normal.largest_overlap()});
+  }
+  contact.laws = std::move(laws);
+}
+
+void make_laws(granulaw_contact_law& contact, const granulaw_pair& pair)
+{
+  if (pair.yields_in_shear)
+    make_laws<PlasticShear>(contact, pair);
+  else if (pair.friction == 0.0)
+    make_laws<Frictionless>(contact, pair);
+  else
+    make_laws<Spring>(contact, pair);
+}
+
+bool is_body(double radius)
+{
+  return radius > 0;  // infinity: a wall
+}
+
+/// The law for bodies of these radii, one of which may be infinite.
+template <class Laws>
+const auto& sized(const granulaw_contact_law& contact, const Laws& laws, double radius_a, double radius_b)
+{
+  return laws[contact.finder.nearest(std::min(radius_a, wall_radius), std::min(radius_b, wall_radius))];
+}
+
+double r_eff_of(double radius_a, double radius_b)
+{
+  if (std::isinf(radius_a)) return radius_b;
+  return std::isinf(radius_b) ? radius_a : effective_radius(radius_a, radius_b);
+}
+
+/// False of radii and m* that no two bodies have.
+bool are_bodies(double radius_a, double radius_b, double m_eff)
+{
+  return is_body(radius_a) && is_body(radius_b) && std::isfinite(r_eff_of(radius_a, radius_b)) && m_eff > 0 &&
+         std::isfinite(m_eff);
 }
 
 bool has_numbers(const granulaw_motion& m)
@@ -120,41 +226,157 @@ bool has_numbers(const granulaw_motion& m)
   double sum = m.overlap + m.approach + m.dt;
   for (const double value : m.normal) sum += value;
   for (const double value : m.slide) sum += value;
-  for (const double value : m.turn) sum += value;
-  return std::isfinite(sum) && m.r_eff > 0 && m.m_eff > 0 && std::isfinite(m.r_eff) && std::isfinite(m.m_eff);
+  for (const double value : m.rolling) sum += value;
+  return std::isfinite(sum) && are_bodies(m.radius_a, m.radius_b, m.m_eff);
 }
 
-template <class Element>
-int advance(const Element& element, std::size_t n, const granulaw_motion* motion, double* history,
-            granulaw_answer* answer, Ledger& ledger)
+ContactMotion motion_of(const granulaw_motion& m)
 {
-  for (std::size_t k = 0; k < n; ++k, history += Element::values) {
-    const granulaw_motion& m = motion[k];
-    if (!has_numbers(m)) return GRANULAW_NO_NUMBER;
-    const ContactMotion moves{{m.r_eff, m.overlap, m.approach, !m.asked_again},
-                              m.m_eff,
-                              m.dt,
-                              {m.normal[0], m.normal[1], m.normal[2]},
-                              {m.slide[0], m.slide[1], m.slide[2]},
-                              {m.turn[0], m.turn[1], m.turn[2]}};
-    const ContactForce force = element.advance(moves, history, ledger);
-    answer[k] = {force.normal,
-                 force.stiffness,
-                 element.contact_radius(moves, history),
-                 {force.shear[0], force.shear[1], force.shear[2]},
-                 {force.couple[0], force.couple[1], force.couple[2]}};
+  return {{r_eff_of(m.radius_a, m.radius_b), m.overlap, m.approach, !m.asked_again},
+          m.m_eff,
+          m.dt,
+          {m.normal[0], m.normal[1], m.normal[2]},
+          {m.slide[0], m.slide[1], m.slide[2]},
+          {m.rolling[0], m.rolling[1], m.rolling[2]}};
+}
+
+/// The caller's part in a step: forces alone, and the stiffness where waves go by it.
+struct Forces : NoCaller
+{
+  bool waves;
+  bool with_stiffness() const { return waves; }
+};
+
+/// Bits of granulaw_answer::beyond of a contact with these values before the step.
+template <class Element>
+unsigned beyond(const granulaw_contact_law& contact, const SizedLaw<Element>& one, const granulaw_motion& m,
+                const ContactMotion& moves, bool begins)
+{
+  const Tabulated& normal = one.element.normal;
+  unsigned bits = moves.overlap > one.largest_overlap * moves.r_eff ? unsigned{GRANULAW_BEYOND_OVERLAP} : 0u;
+  if (!begins || !normal.needs_mass()) return bits;
+  if (m.approach > normal.max_speed(moves.r_eff, m.m_eff)) bits |= GRANULAW_BEYOND_FAST;
+  if (m.approach < normal.min_speed(moves.r_eff, m.m_eff)) bits |= GRANULAW_BEYOND_SLOW;
+  if (const double only = one.law.only_radius(); only > 0) {
+    const bool is_a = one.law.yielding->material.name == contact.names.first;
+    const double radius = (is_a ? m.radius_a : m.radius_b) * contact.scale.length;
+    if (!(std::abs(radius / only - 1) <= size_tolerance)) bits |= GRANULAW_BEYOND_SIZE;
   }
-  return GRANULAW_OK;
+  return bits;
+}
+
+template <class Laws>
+std::size_t advance(const granulaw_contact_law& contact, const Laws& laws, std::size_t n, const granulaw_motion* motion,
+                    double* history, granulaw_answer* answers, Ledger& ledger)
+{
+  using Element = decltype(laws[0].element);
+  for (std::size_t k = 0; k < n; ++k, history += Element::values) {
+    const granulaw_motion& m = at(motion, k);
+    granulaw_answer& now = at(answers, k);
+    if (m.overlap <= 0) {
+      if (!m.asked_again) std::fill_n(history, Element::values, 0.0);
+      now = {answers->size, 0.0, {}, {}, 0u};
+      continue;
+    }
+    if (!has_numbers(m)) return k;
+    const auto& one = sized(contact, laws, m.radius_a, m.radius_b);
+    const ContactMotion moves = motion_of(m);
+    const bool begins = Element::State::largest(history) == 0.0;
+    Forces caller;
+    caller.waves = one.element.normal.radiation > 0;
+    const ContactForce force = one.element.touch(moves, history, ledger, caller);
+    now.normal = force.normal;
+    std::copy_n(force.shear.begin(), 3, now.shear);
+    std::copy_n(force.couple.begin(), 3, now.couple);
+    now.beyond = beyond(contact, one, m, moves, begins);
+  }
+  return n;
+}
+
+template <class Laws>
+std::size_t states(const granulaw_contact_law& contact, const Laws& laws, std::size_t n, const granulaw_motion* motion,
+                   const double* history, granulaw_state* states)
+{
+  using Element = decltype(laws[0].element);
+  using State = typename Element::State;
+  for (std::size_t k = 0; k < n; ++k, history += Element::values) {
+    const granulaw_motion& m = at(motion, k);
+    granulaw_state& now = at(states, k);
+    now = {states->size, 0.0, 0.0, 0.0, State::largest(history), GRANULAW_APART};
+    if (m.overlap <= 0) continue;
+    if (!has_numbers(m)) return k;
+    const auto& element = sized(contact, laws, m.radius_a, m.radius_b).element;
+    const Tabulated& normal = element.normal;
+    const ContactMotion moves = motion_of(m);
+    double own[State::values];
+    std::copy_n(history, State::values, own);
+    const double largest = State::largest(history), impact_overlap = State::impact_overlap(history);
+    const double deepest = std::max(largest, m.overlap);
+    const Response response = normal.response(moves.r_eff, m.overlap, largest, impact_overlap, own + State::own);
+    now.stiffness = response.stiffness;
+    now.contact_radius = element.contact_radius(moves, history);
+    now.stored_energy = normal.stored_energy(moves.r_eff, m.overlap, deepest, impact_overlap);
+    now.largest_overlap = deepest;
+    const double per_length = normal.per_lambda / moves.r_eff;
+    if (!normal.curve->unloads(m.overlap * per_length, deepest * per_length))
+      now.branch = GRANULAW_LOADING;
+    else if (response.force > 0)
+      now.branch = GRANULAW_UNLOADING;
+  }
+  return n;
+}
+
+/// What `visit` says of the history value that has this place; 0: there is none.
+template <class Visit>
+int of_value(const granulaw_contact_law* contact, std::size_t place, Visit&& visit)
+{
+  if (!contact) return 0;
+  return std::visit(
+      [&](const auto& laws) {
+        std::size_t behind = 0;
+        for (const HistoryValue& one : decltype(laws[0].element)::history_values)
+          if (place < (behind += one.values)) return visit(one) ? 1 : 0;
+        return 0;
+      },
+      contact->laws);
+}
+
+int open(granulaw_law** law, granulaw_why* why, auto&& read)
+{
+  static std::mutex one_at_a_time;  // HDF5 may be built for one thread
+  const std::lock_guard lock(one_at_a_time);
+  return guarded(GRANULAW_NO_FILE, why, [&] {
+    auto opened = std::make_unique<granulaw_law>();
+    opened->law = std::make_shared<const Law>(read());
+    for (const auto& [name, body] : opened->law->bodies) opened->materials.push_back(&body.material);
+    *law = opened.release();
+  });
 }
 
 }  // namespace
+
+unsigned granulaw_abi(void)
+{
+  return GRANULAW_ABI;
+}
+
+const char* granulaw_version(void)
+{
+  return version();
+}
 
 int granulaw_open(const char* path, granulaw_law** law, granulaw_why* why)
 {
   if (law) *law = nullptr;
   if (!path || !law) return failed(GRANULAW_NO_POINTER, why, "granulaw_open: path or law is null");
-  return guarded(GRANULAW_NO_FILE, why,
-                 [&] { *law = new granulaw_law{std::make_shared<const Law>(read_law(path))}; });
+  return open(law, why, [&] { return read_law(path); });
+}
+
+int granulaw_open_image(const void* bytes, size_t count, const char* name, granulaw_law** law, granulaw_why* why)
+{
+  if (law) *law = nullptr;
+  if (!bytes || !name || !law) return failed(GRANULAW_NO_POINTER, why, "granulaw_open_image: bytes, name or law is null");
+  return open(law, why, [&] { return read_law_image({static_cast<const char*>(bytes), count}, name); });
 }
 
 void granulaw_close(granulaw_law* law)
@@ -162,18 +384,67 @@ void granulaw_close(granulaw_law* law)
   delete law;
 }
 
+size_t granulaw_materials(const granulaw_law* law)
+{
+  return law ? law->materials.size() : 0;
+}
+
+int granulaw_material_of(const granulaw_law* law, size_t place, granulaw_material* material)
+{
+  if (!law) return GRANULAW_NO_POINTER;
+  if (place >= law->materials.size()) return GRANULAW_NO_NUMBER;
+  const LawMaterial& m = *law->materials[place];
+  return answer(material, {.size = 0,
+                           .name = m.name.c_str(),
+                           .density = m.density,
+                           .youngs_modulus = m.youngs_modulus,
+                           .poisson_ratio = m.poisson_ratio,
+                           .yield_stress = m.yields() ? m.yield_stress : std::numeric_limits<double>::infinity()});
+}
+
+size_t granulaw_pairs(const granulaw_law* law)
+{
+  return law ? law->law->pairs.size() : 0;
+}
+
+int granulaw_pair_of(const granulaw_law* law, size_t place, const char** a, const char** b)
+{
+  if (!law || !a || !b) return GRANULAW_NO_POINTER;
+  if (place >= law->law->pairs.size()) return GRANULAW_NO_NUMBER;
+  *a = law->law->pairs[place].a.c_str(), *b = law->law->pairs[place].b.c_str();
+  return GRANULAW_OK;
+}
+
+void granulaw_usual_pair(granulaw_pair* pair, size_t size)
+{
+  if (!pair) return;
+  std::memset(pair, 0, size);
+  if (size < sizeof(granulaw_pair)) return;  // granulaw_contact() says so
+  pair->size = size;
+  pair->shear_damping = usual_shear_damping, pair->elastic_damping = usual_elastic_damping;
+}
+
 int granulaw_contact(const granulaw_law* law, const granulaw_pair* pair, granulaw_contact_law** contact,
                      granulaw_why* why)
 {
   if (contact) *contact = nullptr;
-  if (!law || !pair || !contact || !pair->a || !pair->b)
-    return failed(GRANULAW_NO_POINTER, why, "granulaw_contact: law, pair, a name of it or contact is null");
+  if (!law || !pair || !contact) return failed(GRANULAW_NO_POINTER, why, "granulaw_contact: law, pair or contact is null");
+  if (!is_known(pair, why, "granulaw_pair")) return GRANULAW_NO_SIZE;
+  if (!pair->a || !pair->b) return failed(GRANULAW_NO_POINTER, why, "granulaw_contact: a name of the pair is null");
   if (const char* wrong = wrong_number(*pair))
     return failed(GRANULAW_NO_NUMBER, why, std::string("granulaw_contact: ") + wrong);
+  if (std::string(pair->a) == wall_name) return failed(GRANULAW_NO_LAW, why, "granulaw_contact: the wall is b");
   return guarded(GRANULAW_NO_LAW, why, [&] {
-    auto made = std::make_unique<granulaw_contact_law>();
-    made->law = law->law;
-    make_element(*made, *pair);
+    (void)resolve_pair(*law->law, pair->a, pair->b, "granulaw_contact");
+    std::unique_ptr<granulaw_contact_law> made(new granulaw_contact_law{
+        law->law,
+        {pair->a, pair->b},
+        {said(pair->length, 1.0), said(pair->mass, 1.0), said(pair->stretch, 1.0), said(pair->time, 1.0)},
+        size_choice(*law->law, pair->a, pair->b),
+        {},
+        {}});
+    made->finder = made->choice.finder(made->choice.usual(radii(pair->radius_a), radii(pair->radius_b)));
+    make_laws(*made, *pair);
     *contact = made.release();
   });
 }
@@ -183,45 +454,81 @@ void granulaw_close_contact(granulaw_contact_law* contact)
   delete contact;
 }
 
-size_t granulaw_kept(const granulaw_contact_law* contact)
+size_t granulaw_history(const granulaw_contact_law* contact)
 {
   if (!contact) return 0;
-  return std::visit([](const auto& element) { return element.values; }, contact->element);
+  return std::visit([](const auto& laws) { return decltype(laws[0].element)::values; }, contact->laws);
 }
 
-int granulaw_turns(const granulaw_contact_law* contact, size_t place)
+int granulaw_changes_sign(const granulaw_contact_law* contact, size_t place)
 {
-  if (!contact) return 0;
+  return of_value(contact, place, [](const HistoryValue& one) { return one.changes_sign; });
+}
+
+int granulaw_is_derived(const granulaw_contact_law* contact, size_t place)
+{
+  return of_value(contact, place, [](const HistoryValue& one) { return one.derived; });
+}
+
+int granulaw_range_of(const granulaw_contact_law* contact, double radius_a, double radius_b, double m_eff,
+                      granulaw_range* range)
+{
+  if (!contact) return GRANULAW_NO_POINTER;
+  if (!are_bodies(radius_a, radius_b, m_eff)) return GRANULAW_NO_NUMBER;
   return std::visit(
-      [&](const auto& element) {
-        std::size_t behind = 0;
-        for (const HistoryValue& one : element.history_values)
-          if (place < (behind += one.values)) return one.changes_sign ? 1 : 0;
-        return 0;
+      [&](const auto& laws) {
+        const Tabulated& normal = sized(*contact, laws, radius_a, radius_b).element.normal;
+        const double r_eff = r_eff_of(radius_a, radius_b);
+        return answer(range, {.size = 0,
+                              .overlap = normal.largest_overlap(),
+                              .yield_overlap = normal.yield_overlap(),
+                              .slowest = normal.min_speed(r_eff, m_eff),
+                              .fastest = normal.max_speed(r_eff, m_eff)});
       },
-      contact->element);
+      contact->laws);
 }
 
-granulaw_range granulaw_range_of(const granulaw_contact_law* contact, double r_eff, double m_eff)
+int granulaw_bound_of(const granulaw_contact_law* contact, double radius_a, double radius_b, double m_eff, double speed,
+                      granulaw_bound* bound)
 {
-  if (!contact) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    return {none, none, none, none};
+  if (!contact) return GRANULAW_NO_POINTER;
+  if (!are_bodies(radius_a, radius_b, m_eff) || !(speed > 0)) return GRANULAW_NO_NUMBER;
+  const auto& [length, mass, stretch, time] = contact->scale;
+  ChosenPair pair{contact->names, radius_a * length, radius_b * length, {}, r_eff_of(radius_a, radius_b) * length, m_eff * mass};
+  pair.law = std::visit([&](const auto& laws) { return sized(*contact, laws, radius_a, radius_b).law; }, contact->laws);
+  const ErrorBound found = bound_of_impact(*contact->law, pair, speed * length / time);
+  if (!found.stated()) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    return answer(bound, {.size = 0, .force = none, .restitution = none, .relative_restitution = none});
   }
-  const Tabulated& normal = normal_of(*contact);
-  return {normal.largest_overlap(), normal.yield_overlap(), normal.min_speed(r_eff, m_eff),
-          normal.max_speed(r_eff, m_eff)};
+  return answer(bound, {.size = 0,
+                        .force = found.force,
+                        .restitution = found.restitution,
+                        .relative_restitution = found.relative_restitution + found.axis_restitution});
 }
 
-int granulaw_advance(const granulaw_contact_law* contact, size_t n, const granulaw_motion* motion,
-                     double* history, granulaw_answer* answer, double* ledger)
+int granulaw_advance(const granulaw_contact_law* contact, size_t n, const granulaw_motion* motion, double* history,
+                     granulaw_answer* answers, double* ledger, size_t* done)
+{
+  if (done) *done = 0;
+  if (n == 0) return GRANULAW_OK;
+  if (!contact || !motion || !history || !answers) return GRANULAW_NO_POINTER;
+  if (!is_known(motion, nullptr, "") || answers->size < sizeof(granulaw_answer)) return GRANULAW_NO_SIZE;
+  Ledger taken;
+  const std::size_t advanced = std::visit(
+      [&](const auto& laws) { return advance(*contact, laws, n, motion, history, answers, taken); }, contact->laws);
+  for (std::size_t k = 0; ledger && k < taken.taken.size(); ++k) ledger[k] += taken.taken[k];
+  if (done) *done = advanced;
+  return advanced == n ? GRANULAW_OK : GRANULAW_NO_NUMBER;
+}
+
+int granulaw_state_of(const granulaw_contact_law* contact, size_t n, const granulaw_motion* motion,
+                      const double* history, granulaw_state* state)
 {
   if (n == 0) return GRANULAW_OK;
-  if (!contact || !motion || !history || !answer) return GRANULAW_NO_POINTER;
-  Ledger taken;
-  const int code =
-      std::visit([&](const auto& element) { return advance(element, n, motion, history, answer, taken); },
-                 contact->element);
-  for (std::size_t k = 0; ledger && k < taken.taken.size(); ++k) ledger[k] += taken.taken[k];
-  return code;
+  if (!contact || !motion || !history || !state) return GRANULAW_NO_POINTER;
+  if (!is_known(motion, nullptr, "") || state->size < sizeof(granulaw_state)) return GRANULAW_NO_SIZE;
+  const std::size_t done =
+      std::visit([&](const auto& laws) { return states(*contact, laws, n, motion, history, state); }, contact->laws);
+  return done == n ? GRANULAW_OK : GRANULAW_NO_NUMBER;
 }

@@ -10,15 +10,16 @@
 
 namespace granulaw {
 
-/// SI values of the caller's units (time is the second), and the factor S by which the caller stretches
-/// overlaps.
+/// SI values of the caller's units, and the factor S by which the caller stretches overlaps.
 struct Scale
 {
   double length = 1;   ///< m
   double mass = 1;     ///< kg
   double stretch = 1;  ///< S
+  double time = 1;     ///< s
 
-  double pressure() const { return mass / length; }  ///< Pa
+  double pressure() const { return mass / length / (time * time); }  ///< Pa
+  double speed() const { return length / time; }                     ///< m/s
 };
 
 /// Stiffness of the steeper branch at x = delta/(lambda R*) of a contact that has just reached it, over
@@ -69,7 +70,8 @@ struct Tabulated
         per_lambda(1.0 / (pair.mapping.length(1.0) * caller.stretch)),
         lambda(pair.mapping.length(1.0) * caller.stretch),
         force_scale(pair.mapping.force(1.0) / (caller.pressure() * caller.stretch)),
-        radiation(pair.radiation * caller.mass * caller.stretch * caller.stretch * caller.stretch),
+        radiation(pair.radiation * caller.mass * caller.stretch * caller.stretch * caller.stretch /
+                  (caller.time * caller.time * caller.time)),
         mapping(pair.mapping),
         measure(impacts),
         per_stretch(1.0 / caller.stretch),
@@ -200,21 +202,21 @@ struct Tabulated
   double impact_overlap(double r_eff, double m_eff, double speed) const
   {
     if (!curve->axis()) return 0.0;
-    return curve->reach(per_speed(r_eff, m_eff) * (speed * scale.length));
+    return curve->reach(per_speed(r_eff, m_eff) * (speed * scale.speed()));
   }
   /// Largest speed of the law's velocity axis; infinity without one.
   double max_speed(double r_eff, double m_eff) const
   {
     if (!curve->axis()) return std::numeric_limits<double>::infinity();
-    return curve->axis()->speed_end / per_speed(r_eff, m_eff) / scale.length;
+    return curve->axis()->speed_end / per_speed(r_eff, m_eff) / scale.speed();
   }
   /// Slowest impact that a rate law has; 0: any.
   double min_speed(double r_eff, double m_eff) const
   {
     if (!curve->axis()) return 0.0;
-    return curve->axis()->speed_begin / per_speed(r_eff, m_eff) / scale.length;
+    return curve->axis()->speed_begin / per_speed(r_eff, m_eff) / scale.speed();
   }
-  double damage_number_per_speed2() const { return measure.damage_number(mapping, scale.length); }
+  double damage_number_per_speed2() const { return measure.damage_number(mapping, scale.speed()); }
 
  private:
   /// s/m, of speeds in SI.

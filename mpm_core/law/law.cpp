@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
-#include "law/nearest_size.hpp"
+#include "law/size_choice.hpp"
 #include "law/radiation.hpp"
 
 namespace granulaw {
@@ -113,6 +113,15 @@ std::string unknown_flow_stress(const Law& law, const PairLaw& pair)
   const auto command = law.provenance.find("command");
   return fmt::format("'{}' hardens, and this older file lacks its flow stress, which 'tangential plastic' needs: make it anew with `{}`",
                      name, command == law.provenance.end() ? "mpm table" : command->second);
+}
+
+SizeChoice size_choice(const Law& law, const std::string& a, const std::string& b)
+{
+  if (a == b) return {ShareOf::smaller, law.size_shares(a, b)};
+  const auto first = law.bodies.find(a), second = law.bodies.find(b);
+  const bool a_yields = first == law.bodies.end() || second == law.bodies.end() ||
+                        yields_first(first->second.material, second->second.material);
+  return {a_yields ? ShareOf::i : ShareOf::j, law.size_shares(a, b)};
 }
 
 PairLaw wall_pair(const BodyLaw& body)

@@ -41,21 +41,13 @@ ImpactBody moved(const Law& law, const ChosenPair& pair, ImpactBody body)
   return body;
 }
 
-}  // namespace
-
-StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source,
-                        const ImpactBody& body)
+/// All but the replay, of which only the flags of speed are set.
+StatedCollision state(const Law& law, const ChosenPair& pair, double velocity)
 {
-  if (!(velocity >= 1e-12 && velocity <= 1e6))  // as of the radii (chosen_pair.cpp)
-    fail("--velocity", "cannot be used", fmt::format("{:g} m/s", velocity), "1e-12 to 1e+06 m/s");
-  StatedCollision result;
-  result.replay = replay_collision(pair.law, pair.r_eff, pair.m_eff, velocity, 20000, moved(law, pair, body));
-  const double allowed = (1 + overlap_margin) * pair.limit();
-  if (result.replay.delta_max > allowed)
-    fail(source, "the collision leaves the law's range of overlaps by more than 5 %",
-         fmt::format("{:.4g} m", result.replay.delta_max), fmt::format("up to {:.4g} m", allowed));
-
   const auto& [a, b] = pair.names;
+  StatedCollision result;
+  result.replay.left_speeds = velocity > pair.law.max_speed(pair.r_eff, pair.m_eff);
+  result.replay.held_speed = velocity < pair.law.min_speed(pair.r_eff, pair.m_eff);
   result.damage_number = damage_number(pair.law, velocity);
   result.axis_speed = pair.law.axis_speed(pair.r_eff, pair.m_eff, velocity);
   result.statement = statement_of(law, pair.law, a, b)
@@ -66,6 +58,27 @@ StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity,
   result.beyond_bound = result.damage_number > result.statement.damage_number_max * (1 + rounding);
   result.needs_axis = result.beyond_bound && !pair.law.curve->axis();
   return result;
+}
+
+}  // namespace
+
+StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source,
+                        const ImpactBody& body)
+{
+  if (!(velocity >= 1e-12 && velocity <= 1e6))  // as of the radii (chosen_pair.cpp)
+    fail("--velocity", "cannot be used", fmt::format("{:g} m/s", velocity), "1e-12 to 1e+06 m/s");
+  StatedCollision result = state(law, pair, velocity);
+  result.replay = replay_collision(pair.law, pair.r_eff, pair.m_eff, velocity, 20000, moved(law, pair, body));
+  const double allowed = (1 + overlap_margin) * pair.limit();
+  if (result.replay.delta_max > allowed)
+    fail(source, "the collision leaves the law's range of overlaps by more than 5 %",
+         fmt::format("{:.4g} m", result.replay.delta_max), fmt::format("up to {:.4g} m", allowed));
+  return result;
+}
+
+ErrorBound bound_of_impact(const Law& law, const ChosenPair& pair, double velocity)
+{
+  return state(law, pair, velocity).bound();
 }
 
 }  // namespace granulaw

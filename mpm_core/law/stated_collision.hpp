@@ -27,4 +27,7 @@ struct StatedCollision
 StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source,
                         const ImpactBody& body = {});
 
+/// The bound of such a collision alone, without its replay: of a speed at which the law has none, not stated.
+ErrorBound bound_of_impact(const Law& law, const ChosenPair& pair, double velocity);
+
 }  // namespace granulaw

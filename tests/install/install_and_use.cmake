@@ -32,5 +32,10 @@ run(${WORK}/build/fit_material ${WORK}/prefix/share/granulaw/atlas.h5 ${SOURCE}/
 run(${WORK}/prefix/bin/mpm --version)
 # the law that the consumer's own program made
 run(${WORK}/build/collide ${WORK}/build/law.h5 powder wall 1e-3 inf 6.283185307e-6 1)
+# the same, compiled as C programs are
+file(GLOB_RECURSE pkg ${WORK}/prefix/granulaw.pc)
+get_filename_component(pkg ${pkg} DIRECTORY)
+find_program(pkg_config pkg-config REQUIRED)
+run(sh -c "PKG_CONFIG_PATH='${pkg}' && export PKG_CONFIG_PATH && cc '${SOURCE}/../../../examples/library/collide.c' $('${pkg_config}' --cflags --libs granulaw) -lm -o '${WORK}/collide' && LD_LIBRARY_PATH=$('${pkg_config}' --variable=libdir granulaw) '${WORK}/collide' '${WORK}/build/law.h5' powder wall 1e-3 inf 6.283185307e-6 1")
 run(${WORK}/prefix/bin/mpm law ${WORK}/build/law.h5 --pair powder:wall --velocity 1)
 run(${WORK}/prefix/bin/mpm check ${WORK}/build/law.h5 --impacts 0)

@@ -71,7 +71,7 @@ class TestCInterface(Deck):
             lever = radius - overlap if tangential == "plastic" else radius - 0.5 * overlap
             turn = spin[1] * nz, -spin[0] * nz  # spin x n
             slide = vx - lever * turn[0], vy - lever * turn[1], vz - vn * nz
-            given += " ".join(repr(w) for w in (radius, mass, overlap, -vn, dt, 0, 0, nz, *slide, *turn, 0.0)) + "\n"
+            given += " ".join(repr(w) for w in (radius, math.inf, mass, overlap, -vn, dt, 0, 0, nz, *slide, *turn, 0.0)) + "\n"
             levers.append((lever, nz))
             expected.append(force)
         said = self.call(FORCES, self.law, "powder", "wall", friction, repr(stiffness), damping, tangential, given=given)
@@ -105,4 +105,4 @@ class TestCInterface(Deck):
             text = self.call(COLLIDE, *words, RADIUS, math.inf, 1e-6, 1.0, expect_failure=True)
             assert re.search(rf"^collide: .*{said}.*\n$", text)
         text = self.call(COLLIDE, self.law, "powder", "powder", RADIUS, -1.0, 1e-6, 1.0, expect_failure=True)
-        assert text == "collide: granulaw_contact: radius_a and radius_b: both over 0, one of them infinity for a deformable wall, or both 0\n"
+        assert text == "collide: granulaw_contact: radius_a and radius_b: both over 0, radius_b infinity for a wall, or both 0\n"

@@ -1,4 +1,4 @@
-#include "liggghts_plugin/deck/size_choice.hpp"
+#include "law/size_choice.hpp"
 
 #include <gtest/gtest.h>
 

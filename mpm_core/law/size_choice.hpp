@@ -4,14 +4,32 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "law/nearest_size.hpp"
+#include "law/law.hpp"
 
-namespace granulaw::plugin {
+namespace granulaw {
 
-/// Least and largest radius of the particles of one atom type; least > largest: none is known.
+/// Half-way between the neighbours of ascending shares.
+inline std::vector<double> half_ways(std::span<const double> shares)
+{
+  std::vector<double> bounds;
+  for (std::size_t k = 1; k < shares.size(); ++k) bounds.push_back(0.5 * (shares[k - 1] + shares[k]));
+  return bounds;
+}
+
+/// Index of the size ratio nearest to own/sum, by half_ways() of all ratios; half-way itself goes to the
+/// lower one. No division: contact loops call it.
+inline std::size_t nearest_share(const std::vector<double>& bounds, double own, double sum)
+{
+  std::size_t k = 0;
+  for (const double bound : bounds) k += static_cast<std::size_t>(own > bound * sum);
+  return k;
+}
+
+/// Least and largest radius of the particles of one type; least > largest: none is known.
 struct Radii
 {
   double least = 1.0, largest = 0.0;
@@ -138,4 +156,7 @@ class SizeChoice
   std::vector<double> shares_, bounds_;
 };
 
-}  // namespace granulaw::plugin
+/// The laws of two materials by size; those of a rigid wall are one. `a` is i.
+SizeChoice size_choice(const Law& law, const std::string& a, const std::string& b);
+
+}  // namespace granulaw
