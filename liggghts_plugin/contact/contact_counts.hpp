@@ -17,8 +17,8 @@ namespace granulaw::plugin {
 /// may move at another point of the step than spheres, so that twice the motion is possible.
 inline constexpr double sudden_start = 2.0;
 
-/// Counts what contacts do in the statistics, in the steps that take them deeper than they were. `Entry`: of
-/// a PairTable.
+/// Counts what contacts do in the statistics: in the steps that take them deeper than they were, or when they turn. `Entry`:
+/// of a PairTable.
 template <class Entry>
 class ContactCounts
 {
@@ -46,17 +46,30 @@ class ContactCounts
     return 0.5 + 0.5 * static_cast<double>(whole);
   }
 
-  /// A step that takes the contact to a larger overlap than it ever had: from `largest`, which is 0 if it begins.
-  [[gnu::always_inline]] void reach(const SurfacesIntersectData& contact, const Entry& entry, double r_eff, double largest) const
+  /// The contact came to a larger overlap `delta` than it ever had: from `largest`, which is 0 if it begins.
+  [[gnu::always_inline]] void reach(const Entry& entry, double r_eff, double largest, double delta, double weight, double* history) const
   {
     ContactStatistics::Pair& counts = *entry.counts;
-    const double weight = this->weight(contact), delta = contact.deltan;
     if (delta > counts.overlap_max * r_eff) counts.overlap_max = delta / r_eff;
     if (delta > near_edge * entry.largest_overlap * r_eff) [[unlikely]] {
       if (largest <= near_edge * entry.largest_overlap * r_eff) counts.near += weight;
       if (delta > entry.largest_overlap * r_eff && largest <= entry.largest_overlap * r_eff) counts.past += weight;
     }
-    move_in_histogram(counts, contact.contact_history, largest, delta, r_eff, weight);
+    move_in_histogram(counts, history, largest, delta, r_eff, weight);
+  }
+
+  /// Hertz's frequency grows as R* delta/m*^2 does: only a contact that leads by this measure is looked at.
+  [[gnu::always_inline]] void look_at_stiffness(const SurfacesIntersectData& contact, const Entry& entry, double r_eff,
+                                                double impact_overlap) const
+  {
+    ContactStatistics::Pair& counts = *entry.counts;
+    const double measure = r_eff * contact.deltan, mass2 = contact.meff * contact.meff;
+    if (!(measure > counts.hardest * mass2)) [[likely]]
+      return;
+    counts.hardest = measure / mass2;
+    counts.run_frequency2 = std::max(counts.run_frequency2, entry.element.normal.stiffness(r_eff, contact.deltan, impact_overlap) /
+                                                                contact_mass(*bodies_, contact));
+    counts.frequency2 = std::max(counts.frequency2, counts.run_frequency2);
   }
 
   /// A step that takes the law deeper than it ever was: from `delta_max`, which is 0 if it begins. False: no motion paid for it.
@@ -68,15 +81,8 @@ class ContactCounts
     bool sudden = false;
     if (delta_max == 0.0) [[unlikely]]
       sudden = begin(counts, contact, entry, r_eff, weight);
-    if constexpr (!Entry::Element::deepens) reach(contact, entry, r_eff, delta_max);
-    // Hertz's frequency grows as R* delta/m*^2 does: only a contact that leads by this measure is looked at
-    if (r_eff * delta > counts.hardest * contact.meff * contact.meff) [[unlikely]] {
-      counts.hardest = r_eff * delta / (contact.meff * contact.meff);
-      counts.run_frequency2 =
-          std::max(counts.run_frequency2,
-                   entry.element.normal.stiffness(r_eff, delta, impact_overlap) / contact_mass(*bodies_, contact));
-      counts.frequency2 = std::max(counts.frequency2, counts.run_frequency2);
-    }
+    if constexpr (!Entry::Element::deepens) reach(entry, r_eff, delta_max, delta, weight, contact.contact_history);
+    look_at_stiffness(contact, entry, r_eff, impact_overlap);
     if (sudden) [[unlikely]] {  // no motion paid for what it holds
       counts.sudden += weight;
       counts.brought += weight * entry.element.normal.stored_energy(r_eff, delta, delta, impact_overlap);
@@ -89,7 +95,7 @@ class ContactCounts
   {
     double& largest = contact.contact_history[largest_offset_];
     if (!(contact.deltan > largest)) return;
-    reach(contact, entry, r_eff, largest);
+    reach(entry, r_eff, largest, contact.deltan, weight(contact), contact.contact_history);
     largest = contact.deltan;
   }
 

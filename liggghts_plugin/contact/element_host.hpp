@@ -109,6 +109,10 @@ class ElementHost : public ContactInquiry
     pairs_.enter(lmp_, physics_, *setup_, types, sizes);
     counts_.connect(lmp_, *setup_->session);
     energy_ = setup_->session->energy;
+    // a wall may drop a contact that it does not close, energies need each step, and what changes R* or the law's overlap
+    // would change what was booked
+    books_later_ = BooksLater<Law> && !Element::deepens && !setup_->wall && !energy_ && !changes_overlap_ &&
+                   !(superquadrics_built && lmp_->atom->superquadric_flag);
   }
 
   /// One step: adds the element's forces. `beside()` adds those of LIGGGHTS's models that act along the normal, and may change
@@ -124,7 +128,7 @@ class ElementHost : public ContactInquiry
       check_layout(contact);
     if constexpr (!Law::history_values.empty())
       if (lmp_->update->ntimestep == first_step_) [[unlikely]]
-        State::forget_derived(history);  // what a restart brings may be of another law
+        begin_run(entry, r_eff, history);
     if (changes_overlap_) [[unlikely]]
       contact.deltan = changed_overlap(contact, entry, r_eff, history);
     if (contact.deltan > entry.largest_overlap * r_eff) [[unlikely]]
@@ -146,12 +150,13 @@ class ElementHost : public ContactInquiry
       book_energy(contact, entry, r_eff, force.law, caller.depth, caller.by_law, ledger);
   }
 
-  void surfacesClose(cm::SurfacesCloseData& contact) const
+  void surfacesClose(SurfacesIntersectData& contact) const
   {
     if (contact.contact_flags) *contact.contact_flags &= ~CONTACT_NORMAL_MODEL;
     if (!contact.contact_history) return;
     double* const history = history_of(contact.contact_history);
     if (State::largest(history) == 0.0) return;  // near neighbours that never touched: leave their cache lines alone
+    if (books_later_) settle(entry_of(contact), effective_radius(contact), counts_.weight(contact), contact.contact_history);
     std::fill_n(history, Element::values, 0.0);
     counts_.forget(contact.contact_history);
     for (const int offset : {behind_offset_, crushed_offset_})
@@ -173,6 +178,12 @@ class ElementHost : public ContactInquiry
     const double overlap = overlap_of_law(law, r_eff, now, stored_compliance(contact.history), copy);
     return {law.contact_radius(r_eff, overlap, delta_max, impact_overlap), delta_max,
             law.dissipated(r_eff, 0.0, delta_max, impact_overlap)};
+  }
+
+  void settle(const ContactPlace& contact, double weight) const override
+  {
+    if (books_later_ && State::largest(history_of(contact.history)) > 0.0)
+      settle(pairs_.of(contact.itype, contact.jtype, contact.radius_i, contact.radius_j), contact.r_eff(), weight, contact.history);
   }
 
   void take_out(ContactStatistics& statistics, const ContactPlace& contact, double weight) const override
@@ -201,6 +212,13 @@ class ElementHost : public ContactInquiry
 
     bool with_stiffness() const { return Radiates<Law> && host.pairs_.radiates(); }
     double impact_overlap(const Law&, const ContactMotion&) const { return host.first_impact_overlap(entry, moves.r_eff, contact); }
+    bool books_later() const
+    {
+      if constexpr (Element::deepens || !BooksLater<Law>) return false;
+      return host.books_later_;
+    }
+    void settle() const { host.settle(entry, moves.r_eff, host.counts_.weight(contact), contact.contact_history); }
+    void deepens(double latched) const { host.counts_.look_at_stiffness(contact, entry, moves.r_eff, latched); }
     bool grows(double from, double latched) const { return host.counts_.grows(contact, entry, moves.r_eff, latched, from); }
     void press(const NormalForces& now, double& push, double& pressing)
     {
@@ -223,6 +241,28 @@ class ElementHost : public ContactInquiry
     return pairs_.of(contact.itype, contact.jtype, contact.radi, contact.radj);
   }
   double* history_of(double* history) const { return history + history_offset_; }
+
+  /// What a restart brings may be of another law; whatever it lost was booked.
+  [[gnu::noinline, gnu::cold]] void begin_run(const Entry& entry, double r_eff, double* history) const
+  {
+    State::forget_derived(history);
+    if constexpr (BooksLater<Law>)
+      if (books_later_ && State::largest(history) > 0.0)
+        entry.element.normal.settle(r_eff, State::largest(history), State::impact_overlap(history), history + State::own);
+  }
+
+  /// Books what a contact lost since it was last booked, and counts how deep it came. Not in the loop: contacts seldom turn.
+  [[gnu::noinline]] void settle(const Entry& entry, double r_eff, double weight, double* contact_history) const
+  {
+    if constexpr (BooksLater<Law>) {
+      const Law& law = entry.element.normal;
+      double* const history = history_of(contact_history), *const own = history + State::own;
+      const double largest = State::largest(history);
+      if (entry.largest_overlap < 0.0 || !law.owes(r_eff, largest, own)) return;
+      counts_.reach(entry, r_eff, law.booked(r_eff, own), largest, weight, contact_history);
+      entry.counts->taken[Mechanism::plastic] += weight * law.settle(r_eff, largest, State::impact_overlap(history), own);
+    }
+  }
 
   [[gnu::always_inline]] ContactMotion motion(const SurfacesIntersectData& s, double r_eff, bool advances, double shorter)
   {
@@ -444,6 +484,7 @@ class ElementHost : public ContactInquiry
   int behind_offset_ = -1;         // of the compliance of bodies behind a contact; -1: `bodyCompliance` is off
   int crushed_offset_ = -1;        // of the length crushed; -1: `beyondRange` is not crush
   bool changes_overlap_ = false;   // either of the two is there
+  bool books_later_ = false;       // contacts that go deeper are booked when they turn
   bool rigid_wall_ = false;
   LAMMPS_NS::bigint first_step_ = 0;  // of this run
   double stretch_ = 1.0;

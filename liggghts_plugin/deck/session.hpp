@@ -42,7 +42,7 @@ struct ContactPlace
   int itype = 0, jtype = 0;           ///< atom types; at a wall j is the wall's
   double radius_i = 0, radius_j = 0;  ///< radius_j infinity: a wall
   double overlap = 0;
-  const double* history = nullptr;
+  double* history = nullptr;
 
   double r_eff() const
   {
@@ -56,6 +56,8 @@ class ContactInquiry
  public:
   virtual ~ContactInquiry() = default;
   virtual ContactState state(const ContactPlace& contact) const = 0;
+  /// Books in the contact statistics what a contact that is open did since it was last booked.
+  virtual void settle(const ContactPlace& contact, double weight) const = 0;
   /// Takes a contact that is open out of the contact statistics' histogram: see
   /// ContactStatistics::Pair::overlap.
   virtual void take_out(ContactStatistics& statistics, const ContactPlace& contact, double weight) const = 0;
@@ -78,6 +80,11 @@ class CountedStyle
   virtual void each_open(const std::function<void(const OpenContact&)>& visit) const = 0;
   virtual const ContactInquiry* contacts() const = 0;
 
+  /// To be called before the contact statistics are read.
+  void settle_open() const
+  {
+    each_open([&](const OpenContact& open) { contacts()->settle(open.place, open.weight); });
+  }
   /// Takes the contacts that are open on this rank out of the contact statistics' histograms.
   void take_out_open(ContactStatistics& statistics) const
   {

@@ -61,7 +61,7 @@ class CommandStyle : public CountedStyle
 
   const Setup& setup() const { return setup_; }
   OpenContact open_contact(int itype, int jtype, int i, int j, double weight, double radius_j,
-                           const double* history) const
+                           double* history) const
   {
     return {pair_key(setup_, itype, jtype),
             i,

@@ -25,7 +25,7 @@ class PairStyle final : public PairLoop<Contact>, public CommandStyle
 
   void each_open(const std::function<void(const OpenContact&)>& visit) const override
   {
-    this->each_open_contact(*parent_, [&](int i, int j, double weight, const double* history) {
+    this->each_open_contact(*parent_, [&](int i, int j, double weight, double* history) {
       const LAMMPS_NS::Atom& atom = *lmp_->atom;
       visit(open_contact(atom.type[i], atom.type[j], i, j, weight, atom.radius[j], history));
     });
@@ -63,7 +63,7 @@ class WallStyle final : public WallLoop<Contact>, public CommandStyle
 
   void each_open(const std::function<void(const OpenContact&)>& visit) const override
   {
-    this->each_open_contact([&](int i, int wall_type, const double* history) {
+    this->each_open_contact([&](int i, int wall_type, double* history) {
       visit(open_contact(lmp_->atom->type[i], wall_type, i, -1, 1.0, flat, history));
     });
   }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
@@ -321,12 +322,20 @@ void FixStats::setup_pre_force(int)
 void FixStats::pre_force(int)
 {
   step_of_rows_ = -1;
+  settled_ = false;
   in_run_ = true;
   if (session_->energy) find_energies();
 }
 
-ContactStatistics FixStats::sum_of_ranks(bool with_open) const
+void FixStats::settle()
 {
+  if (std::exchange(settled_, true)) return;
+  for (const auto& [wall, style] : session_->styles) style->settle_open();
+}
+
+ContactStatistics FixStats::sum_of_ranks(bool with_open)
+{
+  settle();
   ContactStatistics sum = session_->statistics;
   if (!with_open)
     for (const auto& [wall, style] : session_->styles) style->take_out_open(sum);
@@ -335,7 +344,7 @@ ContactStatistics FixStats::sum_of_ranks(bool with_open) const
   return sum;
 }
 
-ContactStatistics FixStats::total() const
+ContactStatistics FixStats::total()
 {
   return sum_of_ranks(false);
 }
@@ -357,6 +366,7 @@ bool FixStats::writes_stats() const
 
 void FixStats::add_energies()
 {
+  settle();
   EnergySeries::Row row{};
   double fastest2 = 0;
   for (int a = 0; a < atom->nlocal; ++a) {
@@ -382,6 +392,7 @@ void FixStats::add_energies()
 
 double FixStats::compute_scalar()
 {
+  settle();
   const double own = session_->statistics.total().taken[Mechanism::plastic];
   double sum = 0;
   MPI_Allreduce(&own, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
@@ -390,6 +401,7 @@ double FixStats::compute_scalar()
 
 double FixStats::compute_vector(int n)
 {
+  settle();
   const auto found = std::find_if(quantities.begin(), quantities.end(), [n](const Quantity& q) {
     return q.vector >= 0 && n >= q.vector && n <= q.vector + static_cast<int>(q.split);
   });
@@ -463,6 +475,8 @@ void FixStats::write_at_stop(const std::string& message)
 {
   if (is_planning || !writes_stats()) return;
   stopped_ = message;
+  settled_ = false;  // the step has begun again
+  settle();
   ContactStatistics own = session_->statistics;
   const DeepContacts deep = deep_contacts(own);
   for (const auto& [wall, style] : session_->styles) style->take_out_open(own);

@@ -68,10 +68,12 @@ class FixStats : public LAMMPS_NS::Fix
   void read_keywords(int narg, char** arg);
   /// Contacts deeper than PairInfo::deep_overlap. `sum`: with the contacts that are open.
   DeepContacts deep_contacts(const ContactStatistics& sum) const;
+  /// Books what open contacts did, before the contact statistics are read.
+  void settle();
   /// The contact statistics summed (or its largest values) over ranks. Collective.
-  ContactStatistics total() const;
+  ContactStatistics total();
   /// `with_open`: as the ranks keep it, with the contacts that are open (ContactStatistics::Pair::overlap).
-  ContactStatistics sum_of_ranks(bool with_open) const;
+  ContactStatistics sum_of_ranks(bool with_open);
   double stored_energy() const;
   /// LIGGGHTS reads the energies of the particles by an address: in a run that of the property, between runs
   /// that of a copy, since a command may remove the property.
@@ -104,7 +106,7 @@ class FixStats : public LAMMPS_NS::Fix
   std::string path_, last_table_;
   std::string stopped_;  ///< the message that ends the run
   double** kept_energies_ = nullptr;  // of the particles, between runs
-  bool in_run_ = false;
+  bool in_run_ = false, settled_ = false;
   double largest_dt_ = 0;
   int every_ = 0;  ///< steps between two files; 0: at the end of a run alone
   EnergySeries energies_;

@@ -53,7 +53,12 @@ struct NoCaller
   {
     return law.impact_overlap(m.r_eff, m.m_eff, m.approach);
   }
-  /// Before the largest overlap grows from the first, under X. False: no motion paid for it, and nothing is booked.
+  /// True: a contact that goes deeper is booked by settle(), in the step in which it turns, not in each step (BooksLater).
+  static constexpr bool books_later() { return false; }
+  static void settle() {}
+  static void deepens(double) {}  ///< in each step that is not booked now, under X
+  /// In the first step of a contact, and in each that is not booked later: the largest overlap grows from the first, under X.
+  /// False: no motion paid for it, and nothing is booked.
   static constexpr bool grows(double, double) { return true; }
   /// N, what acts along the normal, and what friction grows with: the second and third. It may lower the one, and change the
   /// other by forces of its own.
@@ -145,17 +150,31 @@ struct ContactElement
       return now;
     };
     // one branch for force and books: in a bed that is pressed no processor can foresee which contacts grow
-    if (!(m.overlap > delta_max))
+    if (!(m.overlap > delta_max)) {
+      if constexpr (BooksLater<Normal>)
+        if (caller.books_later() && normal.owes(m.r_eff, delta_max, own)) [[unlikely]]
+          caller.settle();
       return caller.with_stiffness() ? with_slope() : NormalForces{normal.force(m.r_eff, m.overlap, delta_max, impact_overlap, own)};
+    }
     if constexpr (LatchesImpact<Normal>)
       if (delta_max == 0.0) impact_overlap = caller.impact_overlap(normal, m);
     const NormalForces now =
         caller.with_stiffness() ? with_slope() : NormalForces{loading_of(normal, m.r_eff, m.overlap, delta_max, impact_overlap, own)};
     if (m.advances) {
       if constexpr (LatchesImpact<Normal>) history[1] = impact_overlap;
-      if (caller.grows(delta_max, impact_overlap))
-        ledger[Mechanism::plastic] += dissipation_of(normal, m.r_eff, delta_max, m.overlap, impact_overlap, own);
       history[0] = m.overlap;
+      double lost = 0.0;
+      if constexpr (BooksLater<Normal>)
+        if (caller.books_later()) {
+          if (delta_max > 0.0) [[likely]] {
+            normal.postpone(own);
+            caller.deepens(impact_overlap);
+            return now;
+          }
+          lost = normal.settle(m.r_eff, m.overlap, impact_overlap, own);
+        }
+      if (!caller.books_later()) lost = dissipation_of(normal, m.r_eff, delta_max, m.overlap, impact_overlap, own);
+      if (caller.grows(delta_max, impact_overlap)) ledger[Mechanism::plastic] += lost;
     }
     return now;
   }

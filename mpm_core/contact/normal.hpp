@@ -88,6 +88,20 @@ concept HasLoading = requires(const Law law, double r_eff, double delta, double 
   { law.grow(r_eff, from, delta, impact_overlap, history) } -> std::same_as<double>;
 };
 
+/// A law whose contacts may be booked when they turn, not in each step that takes them deeper. Their history is as `grow` left
+/// it, at the overlap up to which they are booked.
+template <class Law>
+concept BooksLater = HasLoading<Law> && requires(const Law law, double r_eff, double delta_max, double impact_overlap, double* history) {
+  /// Notes that the contact went deeper unbooked.
+  { law.postpone(history) };
+  /// True if a contact of this largest overlap is not booked up to there.
+  { law.owes(r_eff, delta_max, history) } -> std::same_as<bool>;
+  /// m, overlap up to which it is booked.
+  { law.booked(r_eff, history) } -> std::same_as<double>;
+  /// grow() from there.
+  { law.settle(r_eff, delta_max, impact_overlap, history) } -> std::same_as<double>;
+};
+
 /// A law that lets waves take a part: they act as a dashpot F_waves = C K^2 v, v the approach speed, K the law's own
 /// stiffness (law/radiation.hpp).
 template <class Law>

@@ -109,13 +109,22 @@ struct Tabulated
   }
   double grow(double r_eff, double from, double to, double impact_overlap, double* history) const
   {
-    const double per_length = per_lambda / r_eff, before = from * per_length, after = to * per_length;
-    if (!curve->unloads(0.0, after)) return 0.0;
-    const double spent = before > 0.0 && history[0] == before ? curve->work(before, impact_overlap) - stored_reversal(history).work()
-                                                           : curve->lost(before, impact_overlap);
-    const Curve::Top top = curve->top(after, impact_overlap);
-    store(Curve::reversal(after, top), history);
-    return force_scale * r_eff * r_eff * (r_eff * lambda) * (top.work * (1.0 - top.kept) - spent);
+    const double per_length = per_lambda / r_eff;
+    return spend(r_eff, from * per_length, to * per_length, impact_overlap, history);
+  }
+  void postpone(double* history) const { history[1] = -std::abs(history[1]); }
+  bool owes(double r_eff, double delta_max, const double* history) const
+  {
+    return history[0] != delta_max * (per_lambda / r_eff) && !(history[1] > 0.0);
+  }
+  double booked(double r_eff, const double* history) const { return history[0] * (r_eff / per_lambda); }
+  double settle(double r_eff, double delta_max, double impact_overlap, double* history) const
+  {
+    const double x_max = delta_max * (per_lambda / r_eff);
+    history[1] = std::abs(history[1]);
+    const double lost = spend(r_eff, history[0], x_max, impact_overlap, history);
+    history[0] = x_max;  // also of a contact that never yielded
+    return lost;
   }
   double contact_radius(double r_eff, double delta, double delta_max, double impact_overlap) const
   {
@@ -219,6 +228,17 @@ struct Tabulated
   double damage_number_per_speed2() const { return measure.damage_number(mapping, scale.speed()); }
 
  private:
+  /// grow() between two x.
+  double spend(double r_eff, double before, double after, double impact_overlap, double* history) const
+  {
+    if (!curve->unloads(0.0, after)) return 0.0;
+    const double spent = curve->unloads(0.0, before) && history[0] == before
+                             ? curve->work(before, impact_overlap) - stored_reversal(history).work()
+                             : curve->lost(before, impact_overlap);
+    const Curve::Top top = curve->top(after, impact_overlap);
+    store(Curve::reversal(after, top), history);
+    return force_scale * r_eff * r_eff * (r_eff * lambda) * (top.work * (1.0 - top.kept) - spent);
+  }
   /// s/m, of speeds in SI.
   double per_speed(double r_eff, double m_eff) const
   {
@@ -240,7 +260,6 @@ struct Tabulated
   }
 };
 
-static_assert(NormalLaw<Tabulated> && LatchesImpact<Tabulated> && HasLoading<Tabulated> &&
-              Radiates<Tabulated>);
+static_assert(NormalLaw<Tabulated> && LatchesImpact<Tabulated> && BooksLater<Tabulated> && Radiates<Tabulated>);
 
 }  // namespace granulaw

@@ -154,13 +154,26 @@ struct Thornton : FormulaContact
       spent = dissipated(r_eff, from, to, impact_overlap);
     else {
       const double before = force_at_top(r_eff, from);
-      const double per_before = history[0] == r_eff * from ? history[1] : per_elastic(r_eff, before);
+      const double per_before = history[0] == r_eff * from && history[1] > 0.0 ? history[1] : per_elastic(r_eff, before);
       // what loads a contact beyond its yield is linear, what it gives back is 2/5 F_m (d_m - d_p)
       spent = 0.5 * (before + after) * (to - from) - 0.4 * (after / per_after - before / per_before);
     }
     history[0] = r_eff * to;
     history[1] = per_after;
     return spent;
+  }
+  void postpone(double* history) const { history[1] = -std::abs(history[1]); }
+  bool owes(double r_eff, double delta_max, const double* history) const
+  {
+    return history[0] != r_eff * delta_max && !(history[1] > 0.0);
+  }
+  double booked(double r_eff, const double* history) const { return history[0] / r_eff; }
+  double settle(double r_eff, double delta_max, double impact_overlap, double* history) const
+  {
+    history[1] = std::abs(history[1]);
+    const double lost = grow(r_eff, booked(r_eff, history), delta_max, impact_overlap, history);
+    history[0] = r_eff * delta_max;
+    return lost;
   }
   double contact_radius(double r_eff, double delta, double delta_max, double) const
   {
@@ -209,7 +222,7 @@ struct Thornton : FormulaContact
   }
 };
 
-static_assert(NormalLaw<Thornton> && HasLoading<Thornton>);
+static_assert(NormalLaw<Thornton> && BooksLater<Thornton>);
 
 /// Thornton's closed form e(V/V_y) (his eq. 41, with x = V_y/V <= 1): 1 below the yield velocity.
 inline double thornton_restitution(double v_over_vy)

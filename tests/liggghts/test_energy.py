@@ -114,6 +114,8 @@ class TestEnergy(Deck):
         for word in ("", "energy on"):
             deck = start() + model(f"law {self.law} materials powder {word}", "history", 0.3) + sums
             found.append(self.result(self.run_deck(deck + 'run 15000\nprint "OFF ${e} ${d} ${s} ${o}"\n'), "OFF"))
-        assert found[0][:2] == found[1][:2]
+        assert found[0][0] == found[1][0]
+        # the same losses, added up by turns of contacts and by steps: rounding of some 1e4 sums
+        assert found[0][1] == approx(found[1][1], rel=1e-12)
         assert found[0][2:] == [0.0, 0.0]
         assert found[1][3] != 0.0

@@ -73,6 +73,42 @@ TEST(KeptReversal, LeavesTheForceOfThorntonAsItIs)
       expect_the_same_force_with_what_is_kept(Thornton({1e8, yield_pressure}, stretch), 0.05, 0.0);
 }
 
+/// A contact that is booked when it turns loses what one loses that is booked in each step that takes it deeper.
+template <class Contact>
+void expect_the_same_books_at_turns(const Contact& contact, double deepest, double impact_overlap)
+{
+  constexpr double r_eff = 1e-3;
+  double delta_max = 0.0, each = 0.0, later = 0.0, history[values_of(Contact::history_values)] = {}, other[std::size(history)] = {};
+  for (const Step& step : path(7, deepest)) {
+    if (const double delta = step.delta; delta > delta_max) {
+      each += contact.grow(r_eff, delta_max, delta, impact_overlap, history);
+      if (delta_max > 0.0)
+        contact.postpone(other);
+      else
+        later += contact.settle(r_eff, delta, impact_overlap, other);
+      delta_max = delta;
+    } else if (contact.owes(r_eff, delta_max, other)) {
+      later += contact.settle(r_eff, delta_max, impact_overlap, other);
+      ASSERT_FALSE(contact.owes(r_eff, delta_max, other));
+      ASSERT_NEAR(contact.booked(r_eff, other), delta_max, 1e-15 * delta_max);
+      ASSERT_EQ(contact.force(r_eff, delta, delta_max, impact_overlap, other),
+                contact.force(r_eff, delta, delta_max, impact_overlap, history));
+    }
+  }
+  EXPECT_NEAR(later, each, 1e-12 * each);  // rounding of some thousand differences of works
+}
+
+TEST(KeptReversal, IsBookedInEachStepOrAtTurns)
+{
+  const Law law = granulaw::tests::SyntheticLaw{}.law_with_axis();
+  const BodyLaw& powder = law.bodies.at("powder");
+  const PairLaw pair{{&powder.curve, PairMapping::deformable_partner(powder.material.e_star(), 2e10)}, &powder};
+  for (const double impact_overlap : {0.0, 0.01})
+    expect_the_same_books_at_turns(Tabulated(pair, pair.measure(), {.stretch = 3.0}), 0.05, impact_overlap);
+  for (const double yield_pressure : {1.6e6, 1.6e7, 1.6e30})
+    expect_the_same_books_at_turns(Thornton({1e8, yield_pressure}, 3.0), 0.05, 0.0);
+}
+
 TEST(Thornton, IsThorntonPairButForRounding)
 {
   for (const double yield_pressure : {1.6e6, 1.6e7})
