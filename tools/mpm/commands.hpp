@@ -21,7 +21,8 @@
   ENTRY("Measurements", design)    \
   ENTRY("Solver", impact)          \
   ENTRY("Solver", press)           \
-  ENTRY("Solver", oblique)
+  ENTRY("Solver", oblique)         \
+  ENTRY("Solver", compact)
 
 namespace granulaw {
 

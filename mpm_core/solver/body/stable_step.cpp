@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "solver/body/kernels.hpp"
+#include "solver/body/motion.hpp"
 
 namespace granulaw {
 
@@ -33,19 +34,29 @@ double updated_step(const MovingPoints& m)
   return 0.6 * finest / std::sqrt(fastest);
 }
 
-/// omega_max^2 of a body at rest by power iteration on M^-1 K. A vector x is a field of displacements; its
-/// response is found with displacements no larger than 1e-7 of the finest cell at the surface, where it is
-/// linear.
+/// A field of displacements at random.
+NodeField random_field(const Body& body)
+{
+  NodeField x = body.u_i;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const int entries = static_cast<int>(x.values.size()) / std::max(1, x.nodes);  // three dimensions: 4
+  for (int i = 0; i < x.nodes; ++i)
+    for (int c = 0; c < entries; ++c) x(i, c) = uniform(random);
+  return x;
+}
+
+/// omega_max^2 of a body by power iteration on M^-1 K about its displacements. A vector x is a field of
+/// displacements; its response is found with displacements no larger than `step` of the finest cell at the
+/// surface, where it is linear.
 class PowerIteration
 {
  public:
-  explicit PowerIteration(Body& body) : body_(body), reference_(body.reference()), x_(body.u_i)
+  PowerIteration(Body& body, NodeField& x, double step)
+      : body_(body), reference_(body.reference()), x_(x), step_(step), start_(body.u_i.values)
   {
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> uniform(-1, 1);
-    const int entries = static_cast<int>(x_.values.size()) / std::max(1, x_.nodes);  // three dimensions: 4
-    for (int i = 0; i < x_.nodes; ++i)
-      for (int c = 0; c < entries; ++c) x_(i, c) = uniform(random);
+    kernels(body_).elastic_response(body_);
+    force_ = body_.f_i.values;
   }
   /// The vector that converges fastest alternates in sign.
   double largest_eigenvalue(int iterations)
@@ -60,11 +71,11 @@ class PowerIteration
         value *= scale;
       }
       const double finest = reference_.surface.finest;
-      respond(1e-7 * (finest > 0 ? finest : 1) / largest);
+      respond(step_ * (finest > 0 ? finest : 1) / largest);
       eigenvalue = std::sqrt(square());  // |M^-1 K x| for |x| = 1, in the mass norm: from below
       hold();
     }
-    std::fill(body_.u_i.values.begin(), body_.u_i.values.end(), 0.0);
+    body_.u_i.values = start_;
     return eigenvalue;
   }
 
@@ -83,11 +94,12 @@ class PowerIteration
   /// x becomes M^-1 K x.
   void respond(double step)
   {
-    for (std::size_t k = 0; k < x_.values.size(); ++k) body_.u_i.values[k] = step * x_.values[k];
+    for (std::size_t k = 0; k < x_.values.size(); ++k) body_.u_i.values[k] = start_[k] + step * x_.values[k];
     kernels(body_).elastic_response(body_);
     for (int i = 0; i < x_.nodes; ++i) {
       const double mass = reference_.mass_i[i], per_mass = mass > 0 ? 1 / mass : 0;
-      for (int c = 0; c < x_.components; ++c) x_(i, c) = -body_.f_i(i, c) / step * per_mass;
+      for (int c = 0; c < x_.components; ++c)
+        x_(i, c) = -(body_.f_i(i, c) - force_[x_.at(i, c)]) / step * per_mass;
     }
   }
   void hold()
@@ -98,7 +110,9 @@ class PowerIteration
 
   Body& body_;
   const Reference& reference_;
-  NodeField x_;
+  NodeField& x_;
+  double step_;
+  AlignedVector<double> start_, force_;
 };
 
 }  // namespace
@@ -107,9 +121,12 @@ StableStep::StableStep(Body& body)
 {
   if (body.moving)
     omega_ = 2 / updated_step(*body.moving);
-  else  // in three dimensions an iteration costs most of a run's start
+  else {  // in three dimensions an iteration costs most of a run's start
+    NodeField x = random_field(body);
     omega_ =
-        1.01 * std::sqrt(PowerIteration(body).largest_eigenvalue(body.reference().is_spatial() ? 30 : 80));
+        1.01 *
+        std::sqrt(PowerIteration(body, x, 1e-7).largest_eigenvalue(body.reference().is_spatial() ? 30 : 80));
+  }
 }
 
 double StableStep::limit(const Body& body) const
@@ -125,6 +142,22 @@ double StableStep::limit(const Body& body) const
   // At the surface a cut lets the frequencies be up to twice those of a filled cell: there they grow from the
   // highest of the body at rest.
   return 2 / std::max(omega_ * std::sqrt(std::max(1.0, now.cut)), std::sqrt(now.filled_omega2));
+}
+
+MeasuredStep::MeasuredStep(const Body& body, const MeasuredStep* kept, const Eigen::Matrix3d& turn)
+    : x_(kept ? kept->x_ : random_field(body))
+{
+  if (!kept) return;
+  for (int i = 0; i < x_.nodes; ++i) {
+    const Vector3 turned = turn * at(x_, i);
+    for (int c = 0; c < 3; ++c) x_(i, c) = turned[c];
+  }
+}
+
+double MeasuredStep::limit(Body& body, int iterations)
+{
+  // bodies lie far from the origin: a larger step keeps digits
+  return 2 / std::sqrt(PowerIteration(body, x_, 1e-5).largest_eigenvalue(iterations));
 }
 
 }  // namespace granulaw

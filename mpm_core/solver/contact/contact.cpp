@@ -26,26 +26,21 @@ void check_pores(const Body& b)
   }
 }
 
+}  // namespace
+
 RowNodes nodes_of(Body& body)
 {
   return {body.u_i.values.data(), body.v_i.values.data(), body.f_i.values.data(),
           body.reference().inverse_mass_i.values.data(), body.u_i.per_component};
 }
 
-Vector3 vector_at(const double* four)
-{
-  return {four[0], four[1], four[2]};
-}
-
-}  // namespace
-
-const RowKernels& row_kernels(const Body& body)
+const RowKernels& row_kernels(bool three_dimensions)
 {
   static const RowKernels* const cells[] = {&isa_generic::cell_rows, &isa_avx2::cell_rows,
                                             &isa_avx512::cell_rows};
   static const RowKernels* const corners[] = {&isa_generic::corner_rows, &isa_avx2::corner_rows,
                                               &isa_avx512::corner_rows};
-  return *(body.reference().is_spatial() ? cells : corners)[static_cast<int>(instruction_set())];
+  return *(three_dimensions ? cells : corners)[static_cast<int>(instruction_set())];
 }
 
 void Contact::visit_state(StateArchive& a)
@@ -74,12 +69,12 @@ void RowContact::account(std::span<const Body> bodies)
 {
   const RowKernels& kernels = row_kernels(bodies.front());
   for (const ContactRow& row : rows()) {
-    const Vector3 p = vector_at(row.impulse);
+    const Vector3 p = vector_in(row.impulse);
     if (p == Vector3::Zero()) continue;
     double now[4];
     kernels.velocity(nodes_.data(), row, now);
-    const double by_plane = row.speed * vector_at(row.along).dot(p);
-    dissipated_ += by_plane - 0.5 * p.dot(vector_at(row.before) + vector_at(now));
+    const double by_plane = row.speed * vector_in(row.along).dot(p);
+    dissipated_ += by_plane - 0.5 * p.dot(vector_in(row.before) + vector_in(now));
     work_ += by_plane;
   }
 }

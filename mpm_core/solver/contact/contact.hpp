@@ -10,6 +10,14 @@
 
 namespace granulaw {
 
+/// Fields of a body's nodes as the kernels of rows take them.
+RowNodes nodes_of(Body& body);
+
+inline Vector3 vector_in(const double* four)
+{
+  return {four[0], four[1], four[2]};
+}
+
 /// Contact of bodies with each other or with planes: impulses that keep them from passing through. No
 /// stiffness, no gap parameter; the force can only push.
 class Contact

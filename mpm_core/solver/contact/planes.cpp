@@ -19,11 +19,6 @@ constexpr double candidate_edges = 2;
 /// in turns are open by 1 % of that gap at most.
 constexpr double in_contact = 0.02;
 
-Vector3 vector_in(const double* four)
-{
-  return {four[0], four[1], four[2]};
-}
-
 std::array<double, 3> as_array(const Vector3& v)
 {
   return {v[0], v[1], v[2]};

@@ -8,18 +8,21 @@
 
 namespace granulaw {
 
+class Parallel;
 class Planes;
 
 /// A simulation's bodies, and what keeps them from passing through each other or through planes.
 ///
 /// Axisymmetric: one body above the rigid plane z = 0, or two against each other, each in its own frame
 /// (contact pole at the origin, body in z >= 0: the second one is mirrored). Three dimensions: one body among
-/// rigid planes, or two spheres, the second one mirrored in z, too.
+/// rigid planes, or two spheres, the second one mirrored in z, too. Or a packing of spheres in one frame, for
+/// which `outward`, `centre` and what follows from them mean nothing.
 struct Scene
 {
   std::vector<Body> bodies;
   std::unique_ptr<Contact> contact;
   Planes* planes = nullptr;            ///< three dimensions: the contact's side
+  Parallel* threads = nullptr;         ///< share the bodies; null: there are none
   Vector3 outward = Vector3::UnitZ();  ///< in each body's frame, away from what it meets first
   Vector3 centre = Vector3::Zero();    ///< three dimensions: centre of mass of the undeformed body
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "solver/contact/facing.hpp"
+#include "solver/contact/touching.hpp"
 #include "solver/grid/spatial_grid.hpp"
 #include "solver/material/law_table.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
@@ -135,7 +135,8 @@ std::optional<Eigen::Matrix3d> SpatialSetup::exact_inertia() const
 {
   if (!particle_.layers.empty() || !particle_.inclusions.empty()) return {};
   const double density = particle_.materials.front().density / scale_.density;
-  return density * rotation_ * solid_->mass_properties().inertia * rotation_.transpose() / std::pow(scale_.length, 5);
+  return density * rotation_ * solid_->mass_properties().inertia * rotation_.transpose() /
+         std::pow(scale_.length, 5);
 }
 
 /// 8, as a certificate over orientations (characterise/shape/shape_certificate.cpp).
@@ -213,8 +214,8 @@ void SpatialSetup::meet(const Particle& other, const RunOptions& options)
     if (!p->is_sphere() || !p->inclusions.empty())
       fail("partner", "two bodies in three dimensions are spheres without inclusions");
   if (drawn_) fail("--fields", "shows one body in three dimensions");
-  partner_.reset(new SpatialSetup(other, scale_, Eigen::Matrix3d::Identity(), {touching_plane(Vector3::UnitZ())},
-                                  mirrored_, options));
+  partner_.reset(new SpatialSetup(other, scale_, Eigen::Matrix3d::Identity(),
+                                  {touching_plane(Vector3::UnitZ())}, mirrored_, options));
   Touch &own = touches_.front(), &others = partner_->touches_.front();
   for (double Touch::*radius : {&Touch::sharper, &Touch::flatter})
     own.*radius = others.*radius = in_series(own.*radius, others.*radius);
@@ -324,7 +325,9 @@ Scene SpatialSetup::build(double deepest, int cells, double shift) const
   if (partner_) {
     scene.bodies.push_back(partner_->body(deepest, cells, shift));
     const double apart = -(planes_.front().position + partner_->planes_.front().position);
-    scene.meet(std::make_unique<Facing>(scene.bodies, apart, planes_.front().friction));
+    const std::array<double, 2> radii{particle_.radius / scale_.length,
+                                      partner_->particle_.radius / scale_.length};
+    scene.meet(std::make_unique<TwoSpheres>(scene.bodies, radii, apart, planes_.front().friction));
     return scene;
   }
   std::vector<Plane> at_rest = planes_;

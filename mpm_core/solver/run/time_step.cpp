@@ -1,5 +1,6 @@
 #include "solver/run/time_step.hpp"
 
+#include "base/parallel.hpp"
 #include "solver/body/kernels.hpp"
 
 namespace granulaw {
@@ -26,19 +27,28 @@ void grid_to_points(Body& body, double dt)
   kernels(body).grid_to_points(body, dt);
 }
 
+template <class Verb>
+void each_body(Scene& scene, Verb verb)
+{
+  if (scene.threads)
+    return scene.threads->each(static_cast<int>(scene.bodies.size()),
+                               [&](int b, int) { verb(scene.bodies[b]); });
+  for (Body& body : scene.bodies) verb(body);
+}
+
 }  // namespace
 
 double advance(Scene& scene, Programme& programme, double time, double kick, double dt)
 {
-  for (Body& body : scene.bodies) {
+  each_body(scene, [&](Body& body) {
     points_to_grid(body);
     accelerate(body, kick);
-  }
+  });
   programme.lead(scene, time, dt);                                        // planes get their velocity
   const double impulse = scene.contact->correct(scene.bodies, kick, dt);  // nothing ends the step behind one
   programme.apply(scene, time, dt, impulse > 0);  // throws, presses, damps; then the overlap does not drift
   scene.contact->account(scene.bodies);           // energy of the contact, with the final velocities
-  for (Body& body : scene.bodies) grid_to_points(body, dt);
+  each_body(scene, [&](Body& body) { grid_to_points(body, dt); });
   return impulse;
 }
 
