@@ -2,6 +2,7 @@
 function(granulaw_target name)
   target_compile_features(${name} PUBLIC cxx_std_20)
   set_target_properties(${name} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(${name} SYSTEM PRIVATE ${Boost_INCLUDE_DIRS})  # where they are not the compiler's own
   # Nobody reads errno: with it a square root is a call.
   target_compile_options(${name} PRIVATE -fno-math-errno -Wall -Wextra -Wshadow -Wno-unknown-pragmas)
   if(GRANULAW_SANITIZE)

@@ -19,6 +19,9 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_COMPONENTS_ALL runtime development)
+if(TARGET granulaw_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
@@ -59,4 +62,12 @@ granulaw::solver, the material point method, and granulaw::characterise, which
 makes laws from runs.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "granulaw (= ${PROJECT_VERSION}), libfmt-dev, libeigen3-dev, libhdf5-dev, libtomlplusplus-dev")
+# One module for one minor version of Python, as Debian's own packages.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-granulaw)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "\
+Contact laws in Python: import granulaw makes, reads and asks laws, runs the
+solver, fits materials to measurements and advances contacts on NumPy arrays.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 include(CPack)

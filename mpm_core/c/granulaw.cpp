@@ -13,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/version.hpp"
+#include "c/law_handle.hpp"
 #include "contact/damping.hpp"
 #include "contact/element.hpp"
 #include "contact/plastic_shear.hpp"
@@ -346,14 +347,19 @@ int open(granulaw_law** law, granulaw_why* why, auto&& read)
   static std::mutex one_at_a_time;  // HDF5 may be built for one thread
   const std::lock_guard lock(one_at_a_time);
   return guarded(GRANULAW_NO_FILE, why, [&] {
-    auto opened = std::make_unique<granulaw_law>();
-    opened->law = std::make_shared<const Law>(read());
-    for (const auto& [name, body] : opened->law->bodies) opened->materials.push_back(&body.material);
-    *law = opened.release();
+    *law = law_handle(std::make_shared<const Law>(read()));
   });
 }
 
 }  // namespace
+
+granulaw_law* granulaw::law_handle(std::shared_ptr<const Law> law)
+{
+  auto opened = std::make_unique<granulaw_law>();
+  for (const auto& [name, body] : law->bodies) opened->materials.push_back(&body.material);
+  opened->law = std::move(law);
+  return opened.release();
+}
 
 unsigned granulaw_abi(void)
 {

@@ -7,6 +7,7 @@ from pytest import approx, mark
 from harness import GLASS, POWDER, Deck, Material, head, mpm_law, properties, sphere_mass, worst
 from programs import run
 
+granulaw = __import__("granulaw") if os.environ.get("GRANULAW_MODULE") else None
 COLLIDE, FORCES = (os.environ[k] for k in ("GRANULAW_COLLIDE", "GRANULAW_CONTACT_FORCES"))
 RADIUS = 1.7e-3
 RIGID = Material("rigid", 1500.0, 1e30, 0.3, 1e30)
@@ -75,6 +76,7 @@ class TestCInterface(Deck):
             levers.append((lever, nz))
             expected.append(force)
         said = self.call(FORCES, self.law, "powder", "wall", friction, repr(stiffness), damping, tangential, given=given)
+        self.compare_python(tangential, friction, stiffness, damping, given, said)
         found, couples = [], []
         for (lever, nz), line in zip(levers, said.splitlines()):
             normal, x, y, z, *couple = map(float, line.split())
@@ -86,6 +88,20 @@ class TestCInterface(Deck):
         assert sum(abs(f[0]) > 0 for f in found) > 30
         assert (sum(c > 0 for c in couples) > 30) == (tangential == "plastic")
         return found, expected
+
+    def compare_python(self, tangential, friction, stiffness, damping, given, said):
+        """The same history by the module, where it is built: to the bit."""
+        if not granulaw:
+            return
+        contact = granulaw.read(self.law).contact("powder:wall", friction=friction, tangential=tangential, shear_stiffness=stiffness, shear_damping=damping, elastic_damping=0)
+        m, history = contact.motion(1), contact.history(1)
+        for line, by_c in zip(given.splitlines(), said.splitlines()):
+            values = [float(w) for w in line.split()]
+            for name, value in zip(("radius_a", "radius_b", "m_eff", "overlap", "approach", "dt"), values):
+                m[name] = value
+            m["normal"], m["slide"], m["rolling"] = values[6:9], values[9:12], values[12:15]
+            now = contact.advance(m, history)[0]
+            assert [now["normal"], *now["shear"], *now["couple"]] == [float(w) for w in by_c.split()]
 
     @mark.parametrize("tangential", ("history", "plastic"))
     def test_forces_are_those_of_the_plugin(self, tangential):

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -11,8 +10,7 @@
 #include "base/error.hpp"
 #include "base/scales.hpp"
 #include "characterise/body/law_material.hpp"
-#include "characterise/shape/energetic_restitution.hpp"
-#include "characterise/shape/orientations.hpp"
+#include "body_impact.hpp"
 #include "command.hpp"
 #include "impact_body_options.hpp"
 #include "law/damage_number.hpp"
@@ -20,7 +18,6 @@
 #include "run_report.hpp"
 #include "solver/run/axisymmetric_setup.hpp"
 #include "solver/runs.hpp"
-#include "solver/shape/rotation.hpp"
 
 namespace granulaw {
 
@@ -85,45 +82,6 @@ double damage_number_of(const Meeting& m, double velocity)
   return damage_number(yielding, PairMapping::deformable_partner(yielding.e_star(), second.e_star()), velocity);
 }
 
-/// The mass by its impulse; the tensor of inertia is that of a homogeneous body of this mass.
-RigidBody rigid_body(const Particle& particle, const Approach& thrown, const Rebound& rebound)
-{
-  const MassProperties of_one = shape_of(particle)->mass_properties();
-  const double mass = rebound.impulse_normal / (thrown.velocity * (1 + rebound.normal));
-  const auto& [x, y, z] = thrown.orientation;
-  const Eigen::Matrix3d turned = rotation_to_plane(Vector3(x, y, z).normalized(), thrown.turn);
-  return {mass, mass / of_one.volume * turned * of_one.inertia * turned.transpose()};
-}
-
-/// True where the normal of the first contact passes through the centre of mass.
-bool is_central(const Particle& particle, const Approach& thrown)
-{
-  const auto& [x, y, z] = thrown.orientation;
-  const Vector3 direction = Vector3(x, y, z).normalized();
-  const SharedShape solid = shape_of(particle);
-  Vector3 contact;
-  solid->support(direction, &contact);
-  constexpr double rounding = 1e-6;
-  return effective_mass_share(solid->mass_properties(), contact, direction) > 1 - rounding;
-}
-
-/// Thrown at the wall. Where the body is eccentric e and the works of the summary are those of the contact:
-/// the velocities of its centre do not give them.
-RunResult body_impact(const Meeting& m, const Approach& thrown, const RunOptions& options, CentreMotion& centre)
-{
-  RunResult result = granulaw::impact(m.particle, thrown, m.partner, options);
-  if (!result.rebound) return result;
-  const RigidMotion before{Vector3(thrown.tangential_velocity, 0, -thrown.velocity), Vector3(0, thrown.spin, 0)};
-  const ContactWork work = contact_work(result, rigid_body(m.particle, thrown, *result.rebound), before);
-  if (!is_central(m.particle, thrown)) {
-    result.summary.restitution = work.restitution();
-    result.summary.work_load = work.taken, result.summary.work_unload = work.given_back;
-  }
-  centre.tangential_after = work.velocity_after.x();
-  centre.contacts = work.contacts;
-  return result;
-}
-
 /// The body's mass and compliance: those of the command, else those of the particle's file.
 ImpactBody body_of(const ImpactRequest& r, const Particle& particle)
 {
@@ -181,7 +139,7 @@ void impact(ImpactRequest r)
     oblique.emplace_back("--orientation", fmt::format("{}", fmt::join(thrown.orientation, ",")));
     CentreMotion centre{thrown.velocity, thrown.tangential_velocity};
     return run_and_report(
-        r.run, m, oblique, false, [&](const RunOptions& options) { return body_impact(m, thrown, options, centre); }, centre);
+        r.run, m, oblique, false, [&](const RunOptions& options) { return body_impact(m.particle, thrown, m.partner, options, centre); }, centre);
   }
   run_and_report(r.run, m, asked, false, run);
 }

@@ -26,8 +26,8 @@ std::optional<Atlas> own_atlas()
 
 void draw_by_python(const char* command, const std::string& script, const std::vector<std::string>& words, const std::string& input, const std::string& output)
 {
-  // its whole path as its name: by "python3" alone Python looks for its modules beside the PATH's first one
-  Process process{.words = {"/usr/bin/python3", own_file(script)}, .keeps_stdout = true};
+  // a whole path: by "python3" alone Python looks for its modules beside the PATH's first one
+  Process process{.words = {GRANULAW_PYTHON, own_file(script)}, .keeps_stdout = true};
   if (process.words[1].empty()) fail(command, fmt::format("{} is not beside the program", script));
   process.words.insert(process.words.end(), words.begin(), words.end());
   process.input = memory_file(command, input);

@@ -76,21 +76,6 @@ void print_three_dimensions(const RunResult& result, const CentreMotion& centre)
         -result.planes[k].normal[2], force_at_depth(result, k));
 }
 
-void print_as_json(const RunRequest& r, const Particle& particle, const RunResult& result, const CentreMotion& centre)
-{
-  const RunSummary& s = result.summary;
-  nlohmann::ordered_json out = collision_json(s);
-  put_effort(out, s.points, s.steps, s.cpu_s, s.point_updates_per_s, s.error_estimate);
-  out["grid"] = grid_name(r, particle);
-  out["resolution"] = s.resolution;
-  out["grids"] = s.grids;
-  for (const SummaryNumber& n : summary_numbers)
-    if (!out.contains(n.key)) out[n.key] = s.*n.value;
-  out["ripple"] = s.grid_noise;  // its old name
-  put_three_dimensions(out, result, centre);
-  print_json(out);
-}
-
 const char* body_name(const Particle& particle)
 {
   if (particle.shape) return particle.shape->kind();
@@ -115,11 +100,26 @@ void print_setting(const RunRequest& r, const Particle& particle, double velocit
   }
 }
 
+nlohmann::ordered_json run_json(const std::string& grid, const RunResult& result, const CentreMotion& centre)
+{
+  const RunSummary& s = result.summary;
+  nlohmann::ordered_json out = collision_json(s);
+  put_effort(out, s.points, s.steps, s.cpu_s, s.point_updates_per_s, s.error_estimate);
+  out["grid"] = grid;
+  out["resolution"] = s.resolution;
+  out["grids"] = s.grids;
+  for (const SummaryNumber& n : summary_numbers)
+    if (!out.contains(n.key)) out[n.key] = s.*n.value;
+  out["ripple"] = s.grid_noise;  // its old name
+  put_three_dimensions(out, result, centre);
+  return out;
+}
+
 void report(const RunRequest& r, const Particle& particle, const RunResult& result, const CentreMotion& centre)
 {
   if (!r.output.empty()) write_trace(result, r.output);
   const RunSummary& s = result.summary;
-  if (r.json) return print_as_json(r, particle, result, centre);
+  if (r.json) return print_json(run_json(grid_name(r, particle), result, centre));
   print_collision(s, fmt::format("{:.4g} R", s.delta_max / particle.radius));
   print_three_dimensions(result, centre);
   if (std::isinf(s.error_estimate))

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include "run_files/checkpoint_file.hpp"
 #include "run_request.hpp"
 #include "solver/output/trace.hpp"
@@ -18,6 +20,9 @@ struct CentreMotion
   double tangential = 0, tangential_after = 0;  ///< along +x of the wall
   int contacts = 1;                             ///< that follow each other (characterise/shape/energetic_restitution.hpp)
 };
+
+/// The object of --json. `grid`: name of the grid.
+nlohmann::ordered_json run_json(const std::string& grid, const RunResult& result, const CentreMotion& centre = {});
 
 /// After it: writes the trace if one is asked for, and prints the summary or its JSON.
 void report(const RunRequest& request, const Particle& particle, const RunResult& result, const CentreMotion& centre = {});
