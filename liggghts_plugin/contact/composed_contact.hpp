@@ -13,7 +13,7 @@ namespace granulaw::plugin {
 /// A contact in the place of LIGGGHTS's own (ContactModels::ContactModel): LIGGGHTS's surface model, the contact element of a
 /// normal and a tangential law, and LIGGGHTS's cohesion and rolling model. `Other`: of these, Off or Chosen; where one is on
 /// it costs a virtual call. With `energy on` it books the work of all but the normal law.
-template <NormalPhysics OwnPhysics, class Tangential, template <class> class Other, int surface = cm::SURFACE_DEFAULT>
+template <NormalPhysics OwnPhysics, class Tangential, class Beside, template <class> class Other, int surface = cm::SURFACE_DEFAULT>
 class ComposedContact final : public cm::ContactModelBase
 {
   using ForceData = cm::ForceData;
@@ -75,14 +75,14 @@ class ComposedContact final : public cm::ContactModelBase
   /// True: particles that do not touch may act on each other.
   bool acts_at_distance() const
   {
-    if constexpr (requires { cohesion_.always_off; })
-      return false;
-    else
-      return ids_.has_bridges();
+    if constexpr (decltype(element_)::acts_at_distance) return true;
+    if constexpr (requires { cohesion_.always_off; }) return false;
+    return ids_.has_bridges();
   }
 
   void beginPass(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j)
   {
+    element_.begin_step();
     each_of_liggghts([&](auto& piece) { piece.beginPass(contact, on_i, on_j); });
   }
   void endPass(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j)
@@ -113,7 +113,7 @@ class ComposedContact final : public cm::ContactModelBase
   }
   void surfacesClose(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j)
   {
-    element_.surfacesClose(contact);
+    element_.surfacesClose(contact, on_i, on_j);
     each_of_liggghts([&](auto& piece) { piece.surfacesClose(contact, on_i, on_j); });
     if (tally_ && contact.contact_history) [[unlikely]]
       account_gap(contact, on_i);
@@ -145,7 +145,7 @@ class ComposedContact final : public cm::ContactModelBase
   ModelIds ids_;
   const Setup* setup_ = nullptr;
   cm::SurfaceModel<surface> surface_;
-  ElementHost<Physics, Tangential> element_;
+  ElementHost<Physics, Tangential, Beside> element_;
   Other<cm::CohesionModelBase> cohesion_;
   Other<cm::RollingModelBase> rolling_;
   EnergyTally* tally_ = nullptr;

@@ -54,10 +54,10 @@ const Names& tangential_names()
   return names;
 }
 
-Names& own_tangential_names()
+Names& own_names(int ModelIds::*place)
 {
-  static Names names;
-  return names;
+  static Names tangential, cohesion;
+  return place == &ModelIds::tangential ? tangential : cohesion;
 }
 
 const Names& cohesion_names()
@@ -108,10 +108,7 @@ std::unique_ptr<cm::RollingModelBase> Chosen<cm::RollingModelBase>::make(
   return make_model<cm::RollingModelBase, cm::RollingModel>(Rolling{}, lmp, hsetup, contact, id);
 }
 
-void name_tangential(int id, const char* name)
-{
-  own_tangential_names()[id] = name;
-}
+void name_piece(int ModelIds::*place, int id, const char* name) { own_names(place)[id] = name; }
 
 bool is_built(const ModelIds& ids)
 {
@@ -142,8 +139,9 @@ std::string describe_pieces(const ModelIds& ids)
     if (found != names.end() && found->second != "off") text += fmt::format(" {} {}", kind, found->second);
   };
   add("tangential", tangential_names(), ids.tangential);
-  add("tangential", own_tangential_names(), ids.tangential);
+  add("tangential", own_names(&ModelIds::tangential), ids.tangential);
   add("cohesion", cohesion_names(), ids.cohesion);
+  add("cohesion", own_names(&ModelIds::cohesion), ids.cohesion);
   add("rolling_friction", rolling_names(), ids.rolling);
   return text;
 }

@@ -64,8 +64,8 @@ class Off
   Base* operator->() { return nullptr; }
 };
 
-/// A tangential model of ours, for describe_pieces.
-void name_tangential(int id, const char* name);
+/// A piece of ours, for describe_pieces. `place`: &ModelIds::tangential or cohesion.
+void name_piece(int ModelIds::*place, int id, const char* name);
 /// True: models of ours can be combined so.
 bool is_built(const ModelIds& ids);
 /// Calls visit for every combination with this normal model that LIGGGHTS can name.

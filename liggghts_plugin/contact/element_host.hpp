@@ -41,13 +41,13 @@ inline int add_history(LIGGGHTS::IContactHistorySetup& history, std::span<const 
 /// Everything that a Contact takes and gives is in the deck's units, and stretched (`stretch S`): the largest overlap
 /// and the contact statistics' overlaps are the deck's own, S times the real ones; work needs no conversion,
 /// because F(d/S)/S does the same work to S times the overlap. X stays the unstretched law's.
-template <NormalPhysics Physics, class Tangential>
+template <NormalPhysics Physics, class Tangential, class Beside = NothingBeside>
 class ElementHost : public ContactInquiry
 {
   using SurfacesIntersectData = cm::SurfacesIntersectData;
   using ForceData = cm::ForceData;
   using Law = typename Physics::Contact;
-  using Table = PairTable<Physics, Tangential>;
+  using Table = PairTable<Physics, Tangential, Beside>;
   using Entry = typename Table::Entry;
   using Element = typename Table::Element;
   using State = NormalState<Law>;
@@ -104,9 +104,16 @@ class ElementHost : public ContactInquiry
       registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
       registry.connect("coeffFrict", tangential.friction, "tangential model");
     }
+    if constexpr (Element::has_beside) {
+      registry.registerProperty(Beside::property, &number_of_beside);
+      registry.connect(Beside::property, tangential.beside, "cohesion model");
+    }
     pairs_.resolve(physics_, *setup_, types, sizes, tangential, damping_ratios(registry, *setup_, types));
     Bodies::provide(lmp_, pairs_.needs_mass() || behind_offset_ >= 0);
     pairs_.enter(lmp_, physics_, *setup_, types, sizes);
+    // 1 %: neighbours are those of the step before
+    if constexpr (Element::has_beside) lmp_->neighbor->register_contact_dist_factor(1.01 + pairs_.largest_reach(sizes, setup_->wall));
+    if constexpr (has_rows) ParticleColumns::provide(lmp_, rows_of_beside);
     counts_.connect(lmp_, *setup_->session);
     energy_ = setup_->session->energy;
     // a wall may drop a contact that it does not close, energies need each step, and what changes R* or the law's overlap
@@ -115,10 +122,16 @@ class ElementHost : public ContactInquiry
                    !(superquadrics_built && lmp_->atom->superquadric_flag);
   }
 
+  /// Before the forces between particles of a step. Collective.
+  void begin_step() const
+  {
+    if constexpr (has_rows) ParticleColumns::find(lmp_, rows_of_beside).send();
+  }
+
   /// One step: adds the element's forces. `beside()` adds those of LIGGGHTS's models that act along the normal, and may change
   /// contact.Fn, what friction grows with; none: nullptr.
-  template <class Beside>
-  [[gnu::always_inline]] void surfacesIntersect(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j, Beside beside)
+  template <class Others>
+  [[gnu::always_inline]] void surfacesIntersect(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j, Others beside)
   {
     if (contact.contact_flags) *contact.contact_flags |= CONTACT_NORMAL_MODEL;
     const double r_eff = effective_radius(contact);
@@ -137,7 +150,7 @@ class ElementHost : public ContactInquiry
     const bool advances = contact.computeflag && contact.shearupdate;
     const ContactMotion moves = motion(contact, r_eff, advances, shorter);
     Ledger ledger;
-    Caller<Beside> caller{*this, contact, entry, moves, history, on_i, on_j, beside, ledger};
+    Caller<Others> caller{*this, contact, entry, moves, history, on_i, on_j, beside, ledger};
     const ContactForce force = entry.element.touch(moves, history, ledger, caller);
     add_shear(contact, *lmp_->atom, force.shear, contact.cri - shorter, on_i, on_j);
     if constexpr (Element::deepens) {
@@ -150,12 +163,17 @@ class ElementHost : public ContactInquiry
       book_energy(contact, entry, r_eff, force.law, caller.depth, caller.by_law, ledger);
   }
 
-  void surfacesClose(SurfacesIntersectData& contact) const
+  /// True: it acts across gaps, and surfacesClose() adds a force.
+  static constexpr bool acts_at_distance = Element::has_beside;
+
+  void surfacesClose(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j)
   {
+    if constexpr (Element::has_beside)
+      if (acts_across_gap(contact, on_i, on_j)) return;
     if (contact.contact_flags) *contact.contact_flags &= ~CONTACT_NORMAL_MODEL;
     if (!contact.contact_history) return;
     double* const history = history_of(contact.contact_history);
-    if (State::largest(history) == 0.0) return;  // near neighbours that never touched: leave their cache lines alone
+    if (!Element::has_beside && State::largest(history) == 0.0) return;  // near neighbours that never touched: leave their cache lines alone
     if (books_later_) settle(entry_of(contact), effective_radius(contact), counts_.weight(contact), contact.contact_history);
     std::fill_n(history, Element::values, 0.0);
     counts_.forget(contact.contact_history);
@@ -197,7 +215,7 @@ class ElementHost : public ContactInquiry
 
  private:
   /// The adapter's part in a step of the element.
-  template <class Beside>
+  template <class Others>
   struct Caller
   {
     ElementHost& host;
@@ -206,7 +224,7 @@ class ElementHost : public ContactInquiry
     const ContactMotion& moves;
     double* history;
     ForceData &on_i, &on_j;
-    Beside& beside;
+    Others& beside;
     const Ledger& ledger;
     double pushed = 0, depth = 0, by_law = 0;  // N, m and J, before the tangential law
 
@@ -226,7 +244,7 @@ class ElementHost : public ContactInquiry
         push = pressing = 0.0, host.parts_freely_ = false;
       host.add_normal(contact, push, on_i, on_j);
       pushed = push, depth = State::largest(history), by_law = ledger[Mechanism::plastic];
-      if constexpr (!std::is_null_pointer_v<Beside>) {
+      if constexpr (!std::is_null_pointer_v<Others>) {
         const auto [k, dashpot] = entry.shear.contact(entry.element.normal, moves, history);
         contact.Fn = push, contact.kt = k, contact.gammat = dashpot;
         contact.kn = now.law / moves.overlap;  // secant: rolling model cdt takes kn*deltan as the force
@@ -264,6 +282,47 @@ class ElementHost : public ContactInquiry
     }
   }
 
+  /// Forces over a gap. True: the contact goes on.
+  bool acts_across_gap(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j)
+  {
+    if (!contact.contact_history) return false;
+    const Entry& entry = entry_of(contact);
+    const double r_eff = effective_radius(contact);
+    double parting = 0.0;
+    for (int c = 0; c < 3; ++c) parting += (contact.v_i[c] - contact.v_j[c]) * contact.en[c];
+    ContactMotion moves{{r_eff, contact.radsum - contact.r, -parting, contact.computeflag && contact.shearupdate}, contact.meff,
+                        lmp_->update->dt, {contact.en[0], contact.en[1], contact.en[2]}, {}};
+    add_rows(contact, moves);
+    const Element& element = entry.element;
+    double* const history = history_of(contact.contact_history);
+    if (books_later_ && State::largest(history) > 0.0) settle(entry, r_eff, counts_.weight(contact), contact.contact_history);
+    Ledger ledger;
+    const double force = element.advance(moves, history, ledger).normal;
+    if (moves.advances) counts_.book(contact, entry, ledger);
+    if (force != 0.0) add_normal(contact, force, on_i, on_j), contact.has_force_update = true;
+    return element.beside.holds(history + Element::beside_at);
+  }
+  static constexpr bool has_rows = requires { Beside::particle_values; };
+  /// The particles' own values, of a piece that has some.
+  void add_rows(const SurfacesIntersectData& contact, ContactMotion& moves) const
+  {
+    if constexpr (has_rows) {
+      double** const rows = ParticleColumns::find(lmp_, rows_of_beside).rows();
+      moves.of_i = rows[contact.i], moves.of_j = contact.is_wall ? nullptr : rows[contact.j];
+    }
+  }
+  static constexpr ParticleColumns::Spec rows_of_beside = [] {
+    if constexpr (has_rows)
+      return ParticleColumns::Spec{.name = Beside::particle_values, .columns = Beside::particle_count, .restart = true,
+                                   .to_ghosts = true, .from_ghosts = false};
+    else
+      return ParticleColumns::Spec{};
+  }();
+  static MatrixProperty* number_of_beside(PropertyRegistry& registry, const char* caller, bool)
+  {
+    return MODEL_PARAMS::createPerTypePairProperty(registry, Beside::property, caller);
+  }
+
   [[gnu::always_inline]] ContactMotion motion(const SurfacesIntersectData& s, double r_eff, bool advances, double shorter)
   {
     ContactMotion now{{r_eff, s.deltan, -s.vn, advances}, s.meff, lmp_->update->dt, {s.en[0], s.en[1], s.en[2]}, {s.vtr1, s.vtr2, s.vtr3}};
@@ -275,6 +334,7 @@ class ElementHost : public ContactInquiry
       if (shorter != 0.0)  // nearer to the centre the spin moves the surface less
         now.slide = sum(now.slide, cross(Vector{s.omega_i[0], s.omega_i[1], s.omega_i[2]}, now.normal), shorter);
     }
+    add_rows(s, now);
     return now;
   }
   /// m, by which the tangential force acts nearer to the centre than LIGGGHTS has it. On a rigid wall that is at

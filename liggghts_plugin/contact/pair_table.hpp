@@ -26,6 +26,7 @@ struct TangentialChoice
   double damping = 0.0;         ///< fraction of critical
   bool computed = false;        ///< stiffness from the law's contact radius, not from Hertz's
   double** friction = nullptr;  ///< coefficient, by types; null: no friction
+  double** beside = nullptr;    ///< number of the piece beside the laws, by types
 };
 
 /// Which pair of types a contact belongs to; at a wall `jtype` is the wall's.
@@ -37,12 +38,12 @@ inline PairKey pair_key(const Setup& setup, int itype, int jtype)
 
 /// Data of each pair of atom types for the contact loop: the law, and numbers derived from the moduli. In the
 /// deck's units, stretched.
-template <NormalPhysics Physics, class Tangential>
+template <NormalPhysics Physics, class Tangential, class Beside = NothingBeside>
 class PairTable
 {
  public:
   using Contact = typename Physics::Contact;
-  using Element = ContactElement<Contact, Tangential>;
+  using Element = ContactElement<Contact, Tangential, Beside>;
 
   // Members read at every step come first.
   struct alignas(64) Entry
@@ -90,6 +91,7 @@ class PairTable
         each_entry(i, j, [&](Entry& entry) {
           complete(entry, setup.options.stretch.value_or(1.0), tangential, tangential.friction ? tangential.friction[i][j] : 0.0,
                    in_shear(types, i, j, tangential.damping).stiffness, damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
+          if constexpr (Element::has_beside) entry.element.beside = Beside(entry.element.normal, tangential.beside[i][j]);
           complete_tangential(entry, in_shear(types, i, is_wall && !setup.options.deformable_wall ? 0 : j, tangential.damping));
           entry.behind_i = behind(types, i, setup.options.stretch.value_or(1.0));
           entry.behind_j = is_wall ? 0.0 : behind(types, j, setup.options.stretch.value_or(1.0));
@@ -99,6 +101,19 @@ class PairTable
       if constexpr (Radiates<Contact>) return contact.radiation > 0.0;
       return false;
     });
+  }
+
+  /// Largest reach of the piece beside the laws over the sum of radii, at the smallest particles that can meet.
+  double largest_reach(const ParticleSizes& sizes, bool is_wall) const
+  {
+    double largest = 0.0;
+    for (int i = 1; i < stride_; ++i)
+      for (int j = 1; j < stride_; ++j) {
+        const double r_i = sizes.radius[i], r_j = is_wall ? 0.0 : sizes.radius[j], r_eff = smallest(sizes, i, is_wall ? 0 : j).r_eff;
+        if (r_eff > 0.0 && usual_entry(i, j).largest_overlap >= 0.0)
+          largest = std::max(largest, usual_entry(i, j).element.beside.reach(r_eff) / (r_i + r_j));
+      }
+    return largest;
   }
 
   /// True if the law of any pair requires the mass of the bodies.

@@ -112,12 +112,11 @@ class Session
   EnergyTally tally;
   Bodies bodies;
 
-  /// What is done in each step before and after the forces, on all ranks (run/fix_step.hpp): for numbers that all contacts of
-  /// a particle share.
+  /// What is done in each step before the forces, on all ranks (run/fix_step.hpp): for numbers that all contacts of a particle
+  /// share.
   using Work = std::function<void(LAMMPS_NS::LAMMPS*)>;
   std::vector<Work> before_forces{[this](LAMMPS_NS::LAMMPS* lmp) { bodies.update(lmp); },
-                                  [this](LAMMPS_NS::LAMMPS* lmp) { if (energy) energy->begin_step(lmp, dissipated_energy); }},
-      after_forces;
+                                  [this](LAMMPS_NS::LAMMPS* lmp) { if (energy) energy->begin_step(lmp, dissipated_energy); }};
 
   /// Options that walls inherit: set by the pair style.
   std::optional<Options> pair_options;

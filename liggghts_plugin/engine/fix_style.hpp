@@ -9,6 +9,17 @@ using FixCreator = LAMMPS_NS::Fix* (*)(LAMMPS_NS::LAMMPS*, int, char**);
 /// Makes `name` a fix style of this LIGGGHTS; a style that is there already stays.
 void register_fix_style(LAMMPS_NS::LAMMPS* lmp, const char* name, FixCreator create);
 
+/// Makes Made a fix style `style`, and adds `fix ID all STYLE` where the box exists and the deck has no fix of the style. True: added.
+template <class Made>
+bool provide_fix(LAMMPS_NS::LAMMPS* lmp, const char* id, const char* style)
+{
+  register_fix_style(lmp, style, [](LAMMPS_NS::LAMMPS* l, int narg, char** arg) -> LAMMPS_NS::Fix* { return new Made(l, narg, arg); });
+  if (!lmp->domain->box_exist || lmp->modify->find_fix_style_strict(style, 0)) return false;
+  const char* arg[] = {id, "all", style};
+  lmp->modify->add_fix(3, const_cast<char**>(arg));
+  return true;
+}
+
 /// Makes `create` what the deck's fix or compute `name` is from now on: for classes that do what LIGGGHTS's
 /// own do and more.
 using ComputeCreator = LAMMPS_NS::Compute* (*)(LAMMPS_NS::LAMMPS*, int iarg, int, char**);

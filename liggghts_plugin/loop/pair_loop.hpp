@@ -270,6 +270,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     contact.contact_history = candidate.history;
     if (!(contact.rsq < contact.radsum * contact.radsum) || !surfaces_meet(pass, particles, contact)) {
       contact.has_force_update = false;
+      if (acts_at_distance()) set_normal(pass, particles, contact);
       model_.surfacesClose(contact, on_i, on_j);
       if (acts_at_distance())
         if (contact.has_force_update) apply(pass, particles, contact, on_i, on_j);
@@ -277,15 +278,20 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     }
     if (contact.rsq == 0.0) [[unlikely]]
       stop_at_one_place(i, j);
+    set_normal(pass, particles, contact);
+    model_.surfacesIntersect(contact, on_i, on_j);
+    model_.endSurfacesIntersect(contact, nullptr, on_i, on_j);
+    contact.has_force_update = true;
+    apply(pass, particles, contact, on_i, on_j);
+  }
+
+  void set_normal(const Pass& pass, const Particles& particles, SurfacesIntersectData& contact) const
+  {
     contact.r = std::sqrt(contact.rsq);
     contact.rinv = 1.0 / contact.r;
     if constexpr (!superquadric)
       for (int c = 0; c < 3; ++c) contact.en[c] = contact.delta[c] * contact.rinv;
     set_masses(pass, particles, contact);
-    model_.surfacesIntersect(contact, on_i, on_j);
-    model_.endSurfacesIntersect(contact, nullptr, on_i, on_j);
-    contact.has_force_update = true;
-    apply(pass, particles, contact, on_i, on_j);
   }
 
   void apply(const Pass& pass, const Particles& particles, const SurfacesIntersectData& contact,

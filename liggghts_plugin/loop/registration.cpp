@@ -39,29 +39,34 @@ std::string refusal()
   return fmt::format("models {} are built for {}: choose among these", model_names(), built_combinations());
 }
 
-/// A tangential law of ours, and the normal model that it is for.
-struct OwnTangentialName
+/// "tangential NAME" or "cohesion NAME" of ours, and the normal model that it is for.
+struct OwnPiece
 {
   std::string name;
+  int ModelIds::*place;
   int normal;
 };
-std::map<int, OwnTangentialName>& own_tangentials()
+std::map<int, OwnPiece>& own_pieces()
 {
-  static std::map<int, OwnTangentialName> laws;
-  return laws;
+  static std::map<int, OwnPiece> pieces;
+  return pieces;
 }
 
 [[noreturn]] void refuse(LAMMPS* lmp, int64_t hash)
 {
   const ModelIds ids = ModelIds::of(hash);
-  const auto found = own_tangentials().find(ids.tangential);
-  if (found == own_tangentials().end()) stop_all(lmp, refusal());
-  const auto& [name, normal] = found->second;
-  const ModelInfo* model = find_model(normal);
-  const std::string needed = model ? model->name : "of another plug-in";
-  if (ids.normal != normal)
-    stop_all(lmp, fmt::format("'tangential {}' is for 'model {}': with other normal models say 'tangential history'", name, needed));
-  stop_all(lmp, fmt::format("'tangential {}' is built for spheres, with cohesion and rolling models as 'tangential history' is", name));
+  for (const auto& [id, piece] : own_pieces()) {
+    if (ids.*piece.place != id) continue;
+    const ModelInfo* model = find_model(piece.normal);
+    const bool tangential = piece.place == &ModelIds::tangential;
+    if (ids.normal != piece.normal)
+      stop_all(lmp, fmt::format("'{}' is for 'model {}': with other normal models say '{}'", piece.name,
+                                model ? model->name : "of another plug-in", tangential ? "tangential history" : "cohesion off"));
+    stop_all(lmp, fmt::format("'{}' is built for spheres, with {} as '{}' is", piece.name,
+                              tangential ? "cohesion and rolling models" : "LIGGGHTS's tangential and rolling models",
+                              tangential ? "tangential history" : "cohesion off"));
+  }
+  stop_all(lmp, refusal());
 }
 
 lg::PairStyles::IGranularPairStyle* refuse_pair(LAMMPS* lmp, PairGran*, int64_t hash)
@@ -88,19 +93,20 @@ void add_model(const ModelInfo& model, PairMaker pair, WallMaker wall)
   });
 }
 
-bool takes_own_tangential(const ModelIds& ids)
+bool takes_own(const ModelIds& ids, int ModelIds::*place)
 {
-  return ids.tangential == cm::TANGENTIAL_OFF && ids.surface == cm::SURFACE_DEFAULT && is_built(ids);
+  static_assert(cm::TANGENTIAL_OFF == 0 && cm::COHESION_OFF == 0);
+  return ids.*place == 0 && ids.surface == cm::SURFACE_DEFAULT && is_built(ids);
 }
 
-void refuse_other_normals(const std::string& name, int id, int normal)
+void refuse_other_normals(const std::string& name, int id, int ModelIds::*place, int normal)
 {
-  own_tangentials()[id] = {name, normal};
+  own_pieces()[id] = {(place == &ModelIds::tangential ? "tangential " : "cohesion ") + name, place, normal};
   constexpr int last_normal = 63;  // six bits
   for (int other = 1; other <= last_normal; ++other)
     each_combination(other, [&](ModelIds ids) {
-      if (ids.tangential != cm::TANGENTIAL_OFF || (other == normal && takes_own_tangential(ids))) return;
-      ids.tangential = id;
+      if (ids.*place != 0 || (other == normal && takes_own(ids, place))) return;
+      ids.*place = id;
       const int hash = static_cast<int>(ids.hash());
       lg::PairStyles::Factory::instance().addStyle("gran", hash, &refuse_pair);
       lg::Walls::Factory::instance().addStyle("gran", hash, &refuse_wall);

@@ -26,44 +26,70 @@ Interface* make_style(LAMMPS* lmp, Parent* parent, int64_t hash)
   return new Made(lmp, parent, hash);
 }
 
-/// True: a tangential law of ours is built for these.
-bool takes_own_tangential(const ModelIds& ids);
-/// Notes that `tangential NAME` is of the normal model `normal`: with every other, and with models that are not
-/// built, it stops with a sentence.
-void refuse_other_normals(const std::string& name, int id, int normal);
+/// True: a piece of ours is built for these. `place`: where it stands, &ModelIds::tangential or cohesion.
+bool takes_own(const ModelIds& ids, int ModelIds::*place);
+/// Notes that the piece NAME is of the normal model `normal`: with every other, and with models that are not built, it stops with
+/// a sentence.
+void refuse_other_normals(const std::string& name, int id, int ModelIds::*place, int normal);
 
-/// The style of a normal and a tangential law, with the models of LIGGGHTS's that `hash` names.
-template <class Interface, template <class> class Style, NormalPhysics Physics, class Tangential, class Parent>
+/// The style of a contact element, with the models of LIGGGHTS's that `hash` names.
+template <class Interface, template <class> class Style, NormalPhysics Physics, class Tangential, class Beside, class Parent>
 Interface* make_contact(LAMMPS* lmp, Parent* parent, int64_t hash)
 {
   const ModelIds ids = ModelIds::of(hash);
   check_particles(lmp, ids);
 #ifdef SUPERQUADRIC_ACTIVE_FLAG
   if (ids.superquadric())
-    return make_style<Interface, Style<ComposedContact<Physics, Tangential, Chosen, cm::SURFACE_SUPERQUADRIC>>>(lmp, parent, hash);
+    return make_style<Interface, Style<ComposedContact<Physics, Tangential, Beside, Chosen, cm::SURFACE_SUPERQUADRIC>>>(lmp, parent, hash);
 #endif
-  if (ids.cohesion == cm::COHESION_OFF && ids.rolling == cm::ROLLING_OFF)
-    return make_style<Interface, Style<ComposedContact<Physics, Tangential, Off>>>(lmp, parent, hash);
-  return make_style<Interface, Style<ComposedContact<Physics, Tangential, Chosen>>>(lmp, parent, hash);
+  if ((ids.cohesion == cm::COHESION_OFF || !std::same_as<Beside, NothingBeside>) && ids.rolling == cm::ROLLING_OFF)
+    return make_style<Interface, Style<ComposedContact<Physics, Tangential, Beside, Off>>>(lmp, parent, hash);
+  return make_style<Interface, Style<ComposedContact<Physics, Tangential, Beside, Chosen>>>(lmp, parent, hash);
+}
+/// The same with LIGGGHTS's tangential models, which are ours by those names.
+template <class Interface, template <class> class Style, NormalPhysics Physics, class Beside, class Parent>
+Interface* make_with_usual_tangential(LAMMPS* lmp, Parent* parent, int64_t hash)
+{
+  switch (ModelIds::of(hash).tangential) {
+    case cm::TANGENTIAL_HISTORY: return make_contact<Interface, Style, Physics, Spring, Beside>(lmp, parent, hash);
+    case cm::TANGENTIAL_NO_HISTORY: return make_contact<Interface, Style, Physics, ViscousFriction, Beside>(lmp, parent, hash);
+    default: return make_contact<Interface, Style, Physics, Frictionless, Beside>(lmp, parent, hash);
+  }
 }
 
-/// Makes `tangential NAME`, a TangentialLaw of ours, known for a normal model, with each cohesion and rolling model
-/// that is built. `id`: six bits, which none of LIGGGHTS's has; restart files hold it.
+/// Makes a piece of ours known for a normal model, with each of LIGGGHTS's that is built. `id`: six bits, which none of
+/// LIGGGHTS's has; restart files hold it.
+template <NormalPhysics Physics>
+void add_piece(const char* name, int id, int ModelIds::*place, PairMaker pair, WallMaker wall)
+{
+  name_piece(place, id, name);
+  refuse_other_normals(name, id, place, Physics::id);
+  each_combination(Physics::id, [&](ModelIds ids) {
+    if (!takes_own(ids, place)) return;
+    ids.*place = id;
+    const int hash = static_cast<int>(ids.hash());
+    LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", hash, pair);
+    LIGGGHTS::Walls::Factory::instance().addStyle("gran", hash, wall);
+  });
+}
+/// `tangential NAME`: a TangentialLaw.
 template <NormalPhysics Physics, class Law>
 void add_tangential(const char* name, int id)
 {
   cm::Factory::instance().addTangentialModel(name, id);
-  name_tangential(id, name);
-  refuse_other_normals(name, id, Physics::id);
-  each_combination(Physics::id, [id](ModelIds ids) {
-    if (!takes_own_tangential(ids)) return;
-    ids.tangential = id;
-    const int hash = static_cast<int>(ids.hash());
-    LIGGGHTS::PairStyles::Factory::instance().addStyle(
-        "gran", hash, &make_contact<LIGGGHTS::PairStyles::IGranularPairStyle, PairStyle, Physics, Law, PairGran>);
-    LIGGGHTS::Walls::Factory::instance().addStyle(
-        "gran", hash, &make_contact<LIGGGHTS::Walls::IGranularWall, WallStyle, Physics, Law, FixWallGran>);
-  });
+  add_piece<Physics>(name, id, &ModelIds::tangential,
+                     &make_contact<LIGGGHTS::PairStyles::IGranularPairStyle, PairStyle, Physics, Law, NothingBeside, PairGran>,
+                     &make_contact<LIGGGHTS::Walls::IGranularWall, WallStyle, Physics, Law, NothingBeside, FixWallGran>);
+}
+/// `cohesion NAME`: a piece that StandsBeside the laws, made of the normal law and its number of the pair of types
+/// (`Piece::property`, a peratomtypepair property of the deck).
+template <NormalPhysics Physics, class Piece>
+void add_beside(const char* name, int id)
+{
+  cm::Factory::instance().addCohesionModel(name, id);
+  add_piece<Physics>(name, id, &ModelIds::cohesion,
+                     &make_with_usual_tangential<LIGGGHTS::PairStyles::IGranularPairStyle, PairStyle, Physics, Piece, PairGran>,
+                     &make_with_usual_tangential<LIGGGHTS::Walls::IGranularWall, WallStyle, Physics, Piece, FixWallGran>);
 }
 
 /// Registers a model when the library is loaded: one static object in each register_NAME.cpp. Runs in Open
@@ -74,19 +100,9 @@ class ModelRegistration
  public:
   ModelRegistration()
   {
-    add_model(model_info<Physics>, &make<LIGGGHTS::PairStyles::IGranularPairStyle, PairStyle, PairGran>,
-              &make<LIGGGHTS::Walls::IGranularWall, WallStyle, FixWallGran>);
-  }
-
- private:
-  template <class Interface, template <class> class Style, class Parent>
-  static Interface* make(LAMMPS* lmp, Parent* parent, int64_t hash)
-  {
-    switch (ModelIds::of(hash).tangential) {
-      case cm::TANGENTIAL_HISTORY: return make_contact<Interface, Style, Physics, Spring>(lmp, parent, hash);
-      case cm::TANGENTIAL_NO_HISTORY: return make_contact<Interface, Style, Physics, ViscousFriction>(lmp, parent, hash);
-      default: return make_contact<Interface, Style, Physics, Frictionless>(lmp, parent, hash);
-    }
+    add_model(model_info<Physics>,
+              &make_with_usual_tangential<LIGGGHTS::PairStyles::IGranularPairStyle, PairStyle, Physics, NothingBeside, PairGran>,
+              &make_with_usual_tangential<LIGGGHTS::Walls::IGranularWall, WallStyle, Physics, NothingBeside, FixWallGran>);
   }
 };
 

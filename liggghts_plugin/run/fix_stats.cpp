@@ -27,23 +27,16 @@ namespace {
 
 constexpr const char* style_name = "granulaw/stats";
 
-LAMMPS_NS::Fix* make_stats(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
-{
-  return new FixStats(lmp, narg, arg);
-}
-
 }  // namespace
 
 void provide_stats_fix(LAMMPS_NS::LAMMPS* lmp)
 {
-  register_fix_style(lmp, style_name, &make_stats);
-  if (!lmp->domain->box_exist) return;
-  const std::shared_ptr<Session> session = Session::of(lmp);
-  EnergyTally::provide(lmp, session->energy != nullptr, session->dissipated_energy);
-  if (session->crushes) ParticleColumns::provide(lmp, crushed_particles);
-  if (lmp->modify->find_fix_style_strict(style_name, 0)) return;
-  const char* arg[] = {"granulaw", "all", style_name};
-  lmp->modify->add_fix(3, const_cast<char**>(arg));
+  if (lmp->domain->box_exist) {
+    const std::shared_ptr<Session> session = Session::of(lmp);
+    EnergyTally::provide(lmp, session->energy != nullptr, session->dissipated_energy);
+    if (session->crushes) ParticleColumns::provide(lmp, crushed_particles);
+  }
+  provide_fix<FixStats>(lmp, "granulaw", style_name);
 }
 
 FixStats::FixStats(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg)

@@ -7,25 +7,21 @@
 
 namespace granulaw::plugin {
 
-/// `fix granulaw_step all granulaw/step`: calls Session::before_forces and after_forces in each step. Contacts depend on it; the
-/// statistics (fix granulaw) may go.
+/// `fix granulaw_step all granulaw/step`: calls Session::before_forces in each step. Contacts depend on it; the statistics
+/// (fix granulaw) may go.
 class FixStep : public LAMMPS_NS::Fix
 {
  public:
   FixStep(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
 
-  int setmask() override { return LAMMPS_NS::FixConst::PRE_FORCE | LAMMPS_NS::FixConst::FINAL_INTEGRATE; }
+  int setmask() override { return LAMMPS_NS::FixConst::PRE_FORCE; }
   void setup_pre_force(int) override { pre_force(0); }
-  void pre_force(int) override { call(session_->before_forces); }
-  void setup(int) override { final_integrate(); }
-  void final_integrate() override { call(session_->after_forces); }
-
- private:
-  void call(const std::vector<Session::Work>& all)
+  void pre_force(int) override
   {
-    for (const Session::Work& one : all) one(lmp);
+    for (const Session::Work& one : session_->before_forces) one(lmp);
   }
 
+ private:
   std::shared_ptr<Session> session_;
 };
 

@@ -23,11 +23,6 @@ constexpr ParticleColumns::Spec speeds{.name = "granulaw_speed", .columns = 2, .
 /// (dt/period)^2 (2 pi)^2: of a contact within twelve steps of its period a kick ends within half an overlap a step.
 constexpr double resolved = 0.25;
 
-LAMMPS_NS::Fix* make_runaway(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
-{
-  return new FixRunaway(lmp, narg, arg);
-}
-
 bool is_finite(const double* v)
 {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
@@ -37,11 +32,7 @@ bool is_finite(const double* v)
 
 void provide_runaway_fix(LAMMPS_NS::LAMMPS* lmp)
 {
-  register_fix_style(lmp, runaway_style, &make_runaway);
-  if (!lmp->domain->box_exist || lmp->modify->find_fix_style_strict(runaway_style, 0)) return;
-  const char* arg[] = {"granulaw_runaway", "all", runaway_style};
-  lmp->modify->add_fix(3, const_cast<char**>(arg));
-  ParticleColumns::provide(lmp, speeds);
+  if (provide_fix<FixRunaway>(lmp, "granulaw_runaway", runaway_style)) ParticleColumns::provide(lmp, speeds);
 }
 
 FixRunaway::FixRunaway(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg) : Fix(lmp_, narg, arg)

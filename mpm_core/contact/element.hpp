@@ -25,21 +25,30 @@ struct ContactForce
   Vector couple{};       ///< N m, beside the torque of `shear`
 };
 
-/// Nothing beside the two laws. A piece that stands there (adhesion, a liquid bridge) has the same members.
+// clang-format off
+
+/// A piece that stands beside the two laws: adhesion, a bond, a charge. `history`: its own values. Values that each particle
+/// has, in ContactMotion: `static constexpr const char* particle_values`, their name, and `particle_count`.
+template <class Piece, class Normal>
+concept StandsBeside = std::copyable<Piece> &&
+    requires(const Piece piece, const Normal normal, const ContactMotion& motion, double r_eff, double push, double* normal_history,
+             double* history, Ledger& ledger) {
+  { std::span<const HistoryValue>(Piece::history_values) };
+  /// m, >= 0: gap between the surfaces up to which it acts.
+  { piece.reach(r_eff) } -> std::same_as<double>;
+  /// True if it holds the two bodies, so that the contact keeps its state although the surfaces have parted.
+  { piece.holds(history) } -> std::same_as<bool>;
+  /// N, negative: it pulls. Added to `push`, the force of the normal law and the dashpots: only the sum may be negative. Across a
+  /// gap the overlap is not positive and `push` is 0.
+  { piece.advance(normal, motion, push, normal_history, history, ledger) } -> std::same_as<double>;
+};
+
+// clang-format on
+
+/// Nothing beside the two laws.
 struct NothingBeside
 {
   static constexpr std::array<HistoryValue, 0> history_values{};
-  static constexpr bool acts_at_distance = false;  ///< true: it acts before the surfaces have touched
-  /// m, gap between the surfaces up to which it acts.
-  static double reach(double) { return 0.0; }
-  /// True if it holds the two bodies together, so that the state stays although the surfaces have parted.
-  static bool holds(const double*) { return false; }
-  /// N, negative: it pulls. Added to the normal law's force: only the sum may be negative.
-  template <class Normal>
-  static double advance(const Normal&, const ContactMotion&, double, double*, double*, Ledger&)
-  {
-    return 0.0;
-  }
 };
 
 /// The particle code's part in a step of the element. This one has none.
@@ -68,6 +77,7 @@ struct NoCaller
 /// A contact of two bodies, with one state: a normal law, a dashpot for contacts that are elastic, a tangential law, and
 /// what stands beside them. No allocation, no exception.
 template <NormalLaw Normal, TangentialLaw<Normal> Tangential = Frictionless, class Beside = NothingBeside>
+  requires(std::same_as<Beside, NothingBeside> || StandsBeside<Beside, Normal>)
 struct ContactElement
 {
   using State = NormalState<Normal>;
@@ -82,6 +92,8 @@ struct ContactElement
   double damping = 0;        ///< of contacts that are elastic: dashpot over sqrt(sqrt(R* d) m*)
   double yield_overlap = 0;  ///< over R*: the normal law's; asked for with damping alone
   [[no_unique_address]] Beside beside{};
+
+  static constexpr bool has_beside = !std::same_as<Beside, NothingBeside>;
 
   /// `history`: `values` numbers of this contact. An overlap of 0 or less ends it, unless the piece beside holds it. Adds to `books`.
   ContactForce advance(const ContactMotion& m, double* history, Ledger& ledger) const
@@ -126,14 +138,16 @@ struct ContactElement
   }
 
  private:
-  static constexpr bool has_beside = !std::same_as<Beside, NothingBeside>;
-
-  /// Surfaces that do not touch.
+  /// Surfaces that do not touch. A contact that nothing holds ends; what acts at a distance acts without a contact, too.
   ContactForce part(const ContactMotion& m, double* history, Ledger& ledger) const
   {
-    if (beside.holds(history + beside_at)) return {.normal = beside.advance(normal, m, 0.0, history, history + beside_at, ledger)};
+    ContactForce answer;
+    if constexpr (has_beside) {
+      if (-m.overlap <= beside.reach(m.r_eff)) answer.normal = beside.advance(normal, m, 0.0, history, history + beside_at, ledger);
+      if (-m.overlap <= beside.reach(m.r_eff) && beside.holds(history + beside_at)) return answer;
+    }
     if (m.advances) std::fill_n(history, values, 0.0);
-    return {};
+    return answer;
   }
 
   /// The step of the normal law.
@@ -163,17 +177,14 @@ struct ContactElement
     if (m.advances) {
       if constexpr (LatchesImpact<Normal>) history[1] = impact_overlap;
       history[0] = m.overlap;
-      double lost = 0.0;
+      const bool later = caller.books_later();
       if constexpr (BooksLater<Normal>)
-        if (caller.books_later()) {
-          if (delta_max > 0.0) [[likely]] {
-            normal.postpone(own);
-            caller.deepens(impact_overlap);
-            return now;
-          }
-          lost = normal.settle(m.r_eff, m.overlap, impact_overlap, own);
+        if (later && delta_max > 0.0) {
+          normal.postpone(own);
+          caller.deepens(impact_overlap);
+          return now;
         }
-      if (!caller.books_later()) lost = dissipation_of(normal, m.r_eff, delta_max, m.overlap, impact_overlap, own);
+      const double lost = dissipation_of(normal, m.r_eff, delta_max, m.overlap, impact_overlap, own, later);
       if (caller.grows(delta_max, impact_overlap)) ledger[Mechanism::plastic] += lost;
     }
     return now;

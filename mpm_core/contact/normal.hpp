@@ -121,10 +121,13 @@ double loading_of(const Law& law, double r_eff, double delta, double delta_max, 
   if constexpr (HasLoading<Law>) return law.loading(r_eff, delta, impact_overlap);
   return law.force(r_eff, delta, delta_max, impact_overlap, history);
 }
+/// `later`: of a contact that is booked later from here on.
 template <class Law>
 double dissipation_of(const Law& law, double r_eff, double from, double to, double impact_overlap,
-                      double* history)
+                      double* history, bool later)
 {
+  if constexpr (BooksLater<Law>)
+    if (later) return law.settle(r_eff, to, impact_overlap, history);
   if constexpr (HasLoading<Law>) return law.grow(r_eff, from, to, impact_overlap, history);
   return law.dissipated(r_eff, from, to, impact_overlap);
 }

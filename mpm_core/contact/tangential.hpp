@@ -20,6 +20,8 @@ struct ContactMotion : NormalMotion
   Vector normal{};   ///< unit, from j to i
   Vector slide{};    ///< m/s, velocity of i's surface against j's at the contact, along the surface
   Vector rolling{};  ///< rad/s, (omega_i - omega_j) x normal: rolling of i, in the direction that it rolls
+  /// The particles' own values, of a piece that has some (StandsBeside); of a wall null.
+  const double *of_i = nullptr, *of_j = nullptr;
 };
 
 /// Force and couple of a tangential law on body i; j gets the opposite of both.

@@ -4,7 +4,7 @@ import re
 
 from pytest import approx, mark
 from collisions import pair_deck, wall_deck
-from harness import GLASS, POWDER, Deck, head, properties
+from harness import GLASS, POWDER, Deck, head, properties, sphere_mass
 from programs import ROOT, run
 
 RADIUS, SPEED, DT = 1.7e-3, 1.0, 2e-7
@@ -53,6 +53,27 @@ class TestNewModel(Deck):
         assert ends[0] == ends[1]
         assert float(ends[0].split()[-1]) > 0
 
+    @mark.parametrize("ranks", (1, 2))
+    def test_a_piece_beside_the_laws(self, ranks):
+        """It pulls behind the contact, too, and takes its force times its reach: of two spheres across the boundary of ranks, and at a wall."""
+        force, charge, mass, gap = 0.02, 1.5, sphere_mass(RADIUS, POWDER.density), 0.1
+        models = "model plain_hertz tangential history cohesion pull"
+        for wall in (False, True):
+            r_eff, m_eff = (RADIUS, mass) if wall else (RADIUS / 2, mass / 2)
+            work = force * (charge if wall else charge**2) * gap * r_eff
+            y = (RADIUS,) if wall else (RADIUS, -RADIUS)
+            deck = (head(half=20 * RADIUS) + properties([POWDER]) + f"fix pull all property/global pullForce peratomtypepair 1 {force}\n"
+                    f"pair_style gran {models} {WORDS}\npair_coeff * *\n" + wall * f"fix w all wall/gran {models} primitive type 1 yplane 0.0 {WORDS}\n" +
+                    "".join(f"create_atoms 1 single 0 {1.0001 * at!r} 0 units box\n" for at in y) +
+                    f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\n"
+                    f"set atom 1 vy {-SPEED!r}\nfix i all nve/sphere\ntimestep {DT / 4!r}\n" +
+                    f'run 0\nset group all property/atom charge {charge} 0\nrun 6000\n' + 'variable s equal ' + ("vcm(all,y)" if wall else "vcm(a1,y)-vcm(a2,y)") + '\nprint "SPEED ${s}"\n')
+            deck = deck.replace("fix i all", "group a1 id 1\n" + "group a2 id 2\n" * (not wall) + "fix i all")
+            found = self.result(self.run_deck(deck, launcher="liggghts", environment=PLAIN, ranks=ranks), "SPEED")[0]
+            # a step's motion is 1e-3 of the reach
+            assert 0.5 * m_eff * (SPEED**2 - found**2) == approx(work, rel=5e-3)
+            assert 0.01 < work / (0.5 * m_eff * SPEED**2) < 0.5
+
     def test_its_own_keyword(self):
         stiff = type(POWDER)("powder", POWDER.density, 4 * POWDER.youngs_modulus, POWDER.poisson_ratio, POWDER.yield_stress)
         expected = self.speed(self.pair("plain_hertz", WORDS, (stiff, stiff), run=f"run {STEPS}"))
@@ -87,6 +108,14 @@ class TestNewModel(Deck):
 
 
 class TestConcept:
+    def test_the_law_in_80_lines(self, tmp_path):
+        """The page's program: e is sqrt(k1/k2), and what is booked is lost."""
+        code = re.search(r"```cpp\n(.*?)```", (ROOT / "docs" / "guide" / "law-in-80-lines.md").read_text(), re.S)[1]
+        assert len(code.splitlines()) <= 80
+        run("c++", "-std=c++20", "-O2", "-Wall", "-Wextra", "-Werror", "-x", "c++", f"-I{ROOT / 'mpm_core'}", "-o", tmp_path / "law", "-", input=code)
+        e, expected, lost, booked = (float(w) for w in re.findall(r"[\d.e-]*\d", run(tmp_path / "law").stdout.replace("k1", "").replace("k2", "")))
+        assert (e, booked) == (expected, lost) == (0.5, approx(3.75e-6, rel=1e-3))
+
     def test_a_missing_member_is_named(self):
         """A model that lacks something does not compile, and the compiler says what."""
         source = (ROOT / "tests" / "liggghts" / "plain_hertz" / "plain_hertz_physics.hpp").read_text()
