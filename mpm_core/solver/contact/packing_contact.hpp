@@ -24,8 +24,9 @@ struct PairTally
 class PackingContact : public Contact
 {
  public:
-  /// `friction`: Coulomb's coefficient of all contacts.
-  PackingContact(std::vector<Ball> balls, const PackingBox& box, double friction, Parallel& threads);
+  /// `friction`: Coulomb's coefficient of all contacts. `cells`: of the grids, to a diameter.
+  PackingContact(std::vector<Ball> balls, const PackingBox& box, double friction, int cells,
+                 Parallel& threads);
   ~PackingContact() override;
   double correct(std::span<Body> bodies, double kick, double dt) override;
   void account(std::span<const Body> bodies) override;
@@ -69,7 +70,9 @@ class PackingContact : public Contact
   RowPlane plane_of(int wall) const;
 
   std::vector<Ball> balls_;
-  double friction_, margin_;
+  double friction_;
+  SweepRule rule_;
+  double margin_;
   Parallel& threads_;
   std::vector<Outline> outlines_;
   std::vector<RowNodes> nodes_;

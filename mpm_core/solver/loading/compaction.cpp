@@ -50,12 +50,16 @@ void Compaction::lead(Scene& scene, double time, double dt)
   contact_.box.rate = strain_rate_.cwiseProduct(contact_.box.length);
   // x'' = (e' + e^2) x of an affine motion x' = e x
   const Vector3 gain = strain_rate_ - before + dt * strain_rate_.cwiseAbs2();
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+  std::vector<double> works(scene.bodies.size());
+  scene.threads->each(static_cast<int>(works.size()), [&](int b, int) {
     Body& body = scene.bodies[b];
     const Vector3 more = gain.cwiseProduct(contact_.balls()[b].centre(body));
-    work_ += body.mass() * more.dot(mean_velocity(body) + 0.5 * more);
-    given_ += body.mass() * more;
+    works[b] = body.mass() * more.dot(mean_velocity(body) + 0.5 * more);
     add_velocity(body, more);
+  });
+  for (std::size_t b = 0; b < works.size(); ++b) {
+    work_ += works[b];
+    given_ += scene.bodies[b].mass() * gain.cwiseProduct(contact_.balls()[b].centre(scene.bodies[b]));
   }
 }
 

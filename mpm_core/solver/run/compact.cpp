@@ -21,7 +21,7 @@ namespace granulaw {
 
 namespace {
 
-/// Windows of density over which a row is the mean, centred on multiples of this; shorter on unloading.
+/// Windows of density over which a row is the mean, centred on multiples of this; shorter from the turn on.
 constexpr double load_window = 0.01, unload_window = 0.002;
 /// A window cut short by a turn counts from so many steps on.
 constexpr int least_steps = 10;
@@ -135,7 +135,7 @@ class Assembly
     PackingBox box{Vector3(packing.box[0], packing.box[1], packing.box[2]) / scale_.length, Vector3::Zero(),
                    !plan.walls};
     check_overlaps(box);
-    auto contact = std::make_unique<PackingContact>(balls_, box, plan.friction, threads_);
+    auto contact = std::make_unique<PackingContact>(balls_, box, plan.friction, plan.cells, threads_);
     contact_ = contact.get();
     scene_.contact = std::move(contact), scene_.threads = &threads_;
     if (solid_ / box.volume() >= plan.density)
@@ -268,7 +268,7 @@ void Assembly::begin_window()
 bool Assembly::window_is_over() const
 {
   const double density = drive_->density();
-  if (drive_->branch() == Branch::unload) return window_from_ - density >= unload_window;
+  if (drive_->branch() == Branch::unload) return std::abs(density - window_from_) >= unload_window;
   return std::floor(density / load_window - 0.5) > std::floor(window_from_ / load_window - 0.5);
 }
 
@@ -303,7 +303,7 @@ void Assembly::end_window(bool turned)
   if (turned && window_steps_ < least_steps) return;
   const double time = time_ - window_start_;
   CompactRow row{};
-  row.unloading = drive_->branch() == Branch::unload;
+  row.unloading = drive_->density() < window_from_;
   row.density = density_sum_ / time;
   const Vector3 areas = area_sum_ / time;
   for (int d = 0; d < 3; ++d) {
