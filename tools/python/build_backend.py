@@ -1,6 +1,7 @@
 """What pip calls (PEP 517): CMake builds and installs the module, which becomes a wheel."""
 import base64
 import hashlib
+import os
 import pathlib
 import re
 import subprocess
@@ -22,7 +23,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         made = pathlib.Path(build) / "made"
         subprocess.run(["cmake", "-S", SOURCE, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DGRANULAW_PYTHON={sys.executable}", "-DGRANULAW_PYTHON_DIR=.",
                         *(f"-DGRANULAW_{name}=OFF" for name in OFF)], check=True)
-        subprocess.run(["cmake", "--build", build, "--parallel", "--target", "granulaw_python"], check=True)
+        subprocess.run(["cmake", "--build", build, "--parallel", str(os.cpu_count()), "--target", "granulaw_python"], check=True)
         subprocess.run(["cmake", "--install", build, "--component", "python", "--prefix", made], check=True)
         files = {f"granulaw/{file.name}": file.read_bytes() for file in sorted((made / "granulaw").iterdir())}
     files[f"{info}/METADATA"] = f"Metadata-Version: 2.1\nName: granulaw\nVersion: {version}\nRequires-Dist: numpy\n".encode()
