@@ -239,6 +239,18 @@ void FixStats::warn_of_laws_without_checksum() const
              law->path));
 }
 
+void FixStats::warn_of_laws_without_radii() const
+{
+  const LoadedLaw* law = session_->pair_law.get();
+  const std::optional<Options>& options = session_->pair_options;
+  const bool used = options && (options->heat_by_law.value_or(false) || options->tangential_computed.value_or(false));
+  if (law && used && !law->law.states_unloading_radius())
+    warn("no radii " + law->path,
+         fmt::format("granulaw: {} is older than contact radii of unloading: below the largest overlap a = a_m sqrt(u) stands "
+                     "in for them, up to a third too small; a newer `mpm table` writes them",
+                     law->path));
+}
+
 void FixStats::check_files() const
 {
   std::string message;
@@ -303,6 +315,7 @@ void FixStats::setup(int)
   print(table);
   warn_of_sizes();
   warn_of_laws_without_checksum();
+  warn_of_laws_without_radii();
 }
 
 void FixStats::setup_pre_force(int)

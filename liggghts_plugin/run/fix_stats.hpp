@@ -94,6 +94,7 @@ class FixStats : public LAMMPS_NS::Fix
   void warn_of_sizes() const;
   void warn_of_step_check() const;
   void warn_of_laws_without_checksum() const;
+  void warn_of_laws_without_radii() const;
   /// Stops where a file that is to be written later cannot be. Collective.
   void check_files() const;
   /// Particles that have several contacts deeper than PairInfo::deep_overlap now. Collective.

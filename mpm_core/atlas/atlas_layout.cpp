@@ -77,12 +77,12 @@ AtlasDataset of_materials(const char* name, const char* legend, bool first = fal
 }
 
 template <auto function>
-AtlasDataset of_shapes(const char* name, const char* legend)
+AtlasDataset of_shapes(const char* name, const char* legend, Presence presence = Presence::always)
 {
   return {{name, "1", legend},
           of_each<&AtlasParts::nodes, [](Numbers& all, LatticeNode& n) { add(all, n.shape.*function); }>,
           nullptr,
-          Presence::always,
+          presence,
           Form::rounded_list};
 }
 
@@ -141,6 +141,9 @@ std::vector<AtlasDataset> make_datasets()
       of_shapes<&LawShape::residual>("residual", "-ln(1 - delta_r/delta_m) at the nodes of each material"),
       of_shapes<&LawShape::dissipation>("dissipation", "-ln(W_u/W_L) at the nodes of each material"),
       of_shapes<&LawShape::hertz_share>("foot", "A - A_elastic of the unloading at the nodes of each material"),
+      of_shapes<&LawShape::radius_0>("radius_0", "k - k_elastic of a = a_m sqrt(u) k at u = 0, at the nodes of each material", Presence::radii),
+      of_shapes<&LawShape::radius_1>("radius_1", "the same at sqrt(u) = 1/3", Presence::radii),
+      of_shapes<&LawShape::radius_2>("radius_2", "the same at sqrt(u) = 2/3", Presence::radii),
       of_impacts<&Effect::log_overlap>("impact_reach", "ln(X/v) at the speeds of each material"),
       of_impacts<&Effect::dissipation>("impact_dissipation", "dissipation less the slow press's"),
       of_impacts<&Effect::residual>("impact_residual", "residual less the slow press's"),
@@ -186,7 +189,7 @@ std::vector<AtlasDataset> make_datasets()
         "with a series compliance"},
        of_each<&AtlasParts::midplane_nodes,
                [](Numbers& n, LatticeNode& node) {
-                 for (const auto function : LawShape::functions) add(n, node.shape.*function);
+                 for (std::size_t f = 0; f < LawShape::first_radius; ++f) add(n, node.shape.*LawShape::functions[f]);
                }>,
        nullptr,
        Presence::midplane,

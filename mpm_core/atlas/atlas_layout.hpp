@@ -31,8 +31,9 @@ struct AtlasDataset
   std::vector<double*> (*numbers)(AtlasParts&);
   /// Makes room for so many numbers; null: earlier lists make it.
   void (*make_room)(AtlasParts&, std::size_t count);
-  /// May be absent: the atlas has no checks, or no midplane.
-  enum class Presence { always, checks, midplane, midplane_checks } presence;
+  /// May be absent: the atlas has no checks, no midplane, or is older than the radii of unloading, which are then those
+  /// of an elastic body.
+  enum class Presence { always, radii, checks, midplane, midplane_checks } presence;
   /// In the file. Law shapes are rounded to single precision (6e-8), which halves it.
   enum class Form { list, rounded_list, scalar } form = Form::list;
 };

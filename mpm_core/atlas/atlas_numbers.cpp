@@ -11,7 +11,7 @@ namespace granulaw {
 
 namespace {
 
-constexpr double version = 2;
+constexpr double version = 3;
 
 }  // namespace
 

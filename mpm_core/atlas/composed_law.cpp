@@ -171,9 +171,10 @@ ComposedState ComposedPair::at(double a) const
   // Both unload as the body whose dent it is; elastic ones by what each recovers.
   constexpr double elastic = 1e-6;  // residual over recovered overlap from which on the dent counts
   const double share = (s.residual + elastic * s.recovered) / (residual + elastic * (s.recovered + h.recovered));
-  state.hertz_share =
-      share * first_.hertz_share(s.curvature, a / radius_, residual / recovered) +
-      (1 - share) * second_.hertz_share(h.curvature, a / partner_radius_, residual / recovered);
+  const PairBody::Unloading of_first = first_.unloading(s.curvature, a / radius_, residual / recovered),
+                            of_second = second_.unloading(h.curvature, a / partner_radius_, residual / recovered);
+  for (std::size_t j = 0; j < of_first.size(); ++j)
+    state.unloading[j] = share * of_first[j] + (1 - share) * of_second[j];
   state.log_yield_overlap = std::max(s.log_yield_overlap, h.log_yield_overlap);
   state.known = s.known && h.known;
   return state;
@@ -192,7 +193,8 @@ namespace {
 /// A pair's states in the coordinates of the pair rule.
 struct Sample
 {
-  double x, force, radius, residual, returned, hertz_share;
+  double x, force, radius, residual, returned;
+  PairBody::Unloading unloading;
   double contact;  // radius over R*
   bool yielded;
 };
@@ -212,7 +214,7 @@ class RuleCoordinates
             s.contact_radius / radius_,
             std::max(0.0, x - recovered),
             force * recovered * s.unloading_work,
-            s.hertz_share,
+            s.unloading,
             s.contact_radius / r_eff_,
             s.log_yield_overlap > 0};
   }
@@ -318,7 +320,8 @@ using Interpolated = boost::math::interpolators::makima<std::vector<double>>;
 /// The shape's functions through the samples, the first of which is the onset.
 LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& elastic, double end)
 {
-  std::vector<double> log_x, reduction, widening, residual, dissipation, hertz_share;
+  std::vector<double> log_x;
+  std::array<std::vector<double>, LawShape::function_count> values;  // as LawShape::functions
   const double x0 = samples.front().x;
   double work =
       std::pow(x0, 2.5) * (0.4 + elastic.c1 * std::sqrt(x0) / 3 + elastic.c2 * x0 / 3.5);  // of loading
@@ -338,27 +341,26 @@ LawShape shape_of(const std::vector<Sample>& samples, const ElasticCorrection& e
       lost = std::max(work - now.returned / told_at_onset, lost);
     const double s = std::pow(now.x, 0.25);
     log_x.push_back(std::log(now.x));
-    reduction.push_back(-std::log(now.force / (std::pow(now.x, 1.5) * elastic.force_ratio(s))));
-    widening.push_back(std::log(now.radius / (std::sqrt(now.x) * elastic.radius_ratio(s))));
-    residual.push_back(-std::log1p(-now.residual / now.x));
-    dissipation.push_back(-std::log1p(-lost / work));
-    hertz_share.push_back(now.hertz_share - elastic.unloading(s).hertz_share);
+    const double now_values[] = {-std::log(now.force / (std::pow(now.x, 1.5) * elastic.force_ratio(s))),
+                                 std::log(now.radius / (std::sqrt(now.x) * elastic.radius_ratio(s))),
+                                 -std::log1p(-now.residual / now.x),
+                                 -std::log1p(-lost / work),
+                                 now.unloading[0] - elastic.unloading(s).hertz_share,
+                                 now.unloading[1],
+                                 now.unloading[2],
+                                 now.unloading[3]};
+    for (std::size_t f = 0; f < values.size(); ++f) values[f].push_back(now_values[f]);
   }
   LawShape shape = LawShape::zero(x0, end);
   shape.elastic = elastic;
-  const auto fill = [&](std::vector<double> LawShape::*member, std::vector<double> values) {
-    const double at_onset = values.front();  // rounding of the fitted elastic part
-    for (double& value : values) value -= at_onset;
-    const Interpolated curve(std::vector<double>(log_x), std::move(values));
+  for (std::size_t f = 0; f < values.size(); ++f) {
+    const double at_onset = values[f].front();  // rounding of the fitted elastic part
+    for (double& value : values[f]) value -= at_onset;
+    const Interpolated curve(std::vector<double>(log_x), std::move(values[f]));
     for (int k = 1; k < LawShape::nodes; ++k)
-      (shape.*member)[static_cast<std::size_t>(k)] = curve(std::min(
+      (shape.*LawShape::functions[f])[static_cast<std::size_t>(k)] = curve(std::min(
           log_x.front() + (std::log(end) - log_x.front()) * k / (LawShape::nodes - 1), log_x.back()));
-  };
-  fill(&LawShape::force_reduction, std::move(reduction));
-  fill(&LawShape::widening, std::move(widening));
-  fill(&LawShape::residual, std::move(residual));
-  fill(&LawShape::dissipation, std::move(dissipation));
-  fill(&LawShape::hertz_share, std::move(hertz_share));
+  }
   return shape;
 }
 

@@ -19,7 +19,7 @@ struct ComposedState
   double force = 0;
   double overlap = 0, recovered = 0;  ///< recovered: on complete unloading
   double unloading_work = 0.4;        ///< given back, over force times recovered overlap
-  double hertz_share = 1;             ///< of the unloading
+  PairBody::Unloading unloading{1};
   double flatness = 0;                ///< of the pressure (PressureShape)
   double log_yield_overlap = 0;       ///< of the body that is further beyond its first yield
   bool known = true;

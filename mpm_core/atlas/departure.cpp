@@ -64,7 +64,11 @@ Departure Departure::between(const Curve& own, const LawShape& guide)
     const Curve::Top a = own.top(x), b = law.top(x);
     const double difference[] = {-std::log(a.force / b.force), std::log(own.radius(x) / law.radius(x)),
                                  -std::log(a.span / b.span), -std::log(a.kept / b.kept), a.share - b.share};
-    for (std::size_t f = 0; f < points.size(); ++f) points[f].push_back({over_onset, difference[f]});
+    for (std::size_t f = 0; f < LawShape::first_radius; ++f) points[f].push_back({over_onset, difference[f]});
+    if (!own.states_unloading_radius()) continue;
+    const auto k_own = own.unloading_radius(x).k, k_guide = law.unloading_radius(x);
+    for (std::size_t j = 0; j < 3; ++j)
+      points[LawShape::first_radius + j].push_back({over_onset, k_own[j] - k_guide[j]});
   }
   return Departure(points);
 }

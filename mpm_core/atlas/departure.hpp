@@ -11,7 +11,7 @@ namespace granulaw {
 /// Difference between a law and its guide, a law that needs no run: by overlap/onset, in which it is small, smooth
 /// and hardly depends on the stiffness. So few runs show it, and spheres of other stiffness share it.
 ///
-/// Each of the five functions (LawShape::functions) is a cubic spline by (x/onset)^(1/4) in up to 24 intervals that
+/// Each of LawShape::functions is a cubic spline by (x/onset)^(1/4) in up to 24 intervals that
 /// leaves the onset with zero value and slope, by penalised least squares on second differences. Knots even in
 /// ln x, or a penalty on third differences, swing between the onset and the first run. Beyond the last point it
 /// keeps its value.
@@ -24,7 +24,7 @@ class Departure
     double over_onset, value;  ///< overlap/onset, over 1
     double weight = 1;
   };
-  using Points = std::array<std::vector<Point>, 5>;  ///< in the order of LawShape::functions
+  using Points = std::array<std::vector<Point>, LawShape::function_count>;  ///< in the order of LawShape::functions
 
   /// One function. With a single point it is proportional to the square of the coordinate, with none 0.
   class Function
@@ -52,7 +52,7 @@ class Departure
   double end() const { return end_; }
 
  private:
-  std::array<Function, 5> functions_;
+  std::array<Function, LawShape::function_count> functions_;
   double end_ = 0;
 };
 

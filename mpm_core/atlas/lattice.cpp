@@ -17,6 +17,7 @@ template <class Add>
 void along_rows(const std::vector<double>& stiffnesses, const MaterialRatios& m, const auto& hardenings_at,
                 const Add& add)
 {
+  if (stiffnesses.empty()) return;
   const std::vector<double> along = interpolation_weights(logarithms(stiffnesses), std::log(m.stiffness));
   for (std::size_t i = 0; i < stiffnesses.size(); ++i) {
     const double k = stiffnesses[i];

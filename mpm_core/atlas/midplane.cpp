@@ -18,7 +18,7 @@ MidplaneShapes::MidplaneShapes(MidplaneGrid grid, std::vector<ElasticCorrection>
   if (elastic_.size() != grid_.poisson_ratios().size())
     fail("atlas", "its elastic midplane presses are not those of its Poisson's ratios");
   for (const Node& node : nodes_) {
-    std::array<Spline, 5>& change = changes_.emplace_back();
+    std::array<Spline, changed>& change = changes_.emplace_back();
     for (std::size_t f = 0; f < change.size(); ++f) change[f] = node.shape.by_q(LawShape::functions[f]);
   }
   const auto bound = [&](double MidplaneCheck::*error) { return confident_bound(checks_, error); };
@@ -47,7 +47,7 @@ LawShape MidplaneShapes::shape(const MaterialRatios& m, const LawShape& free) co
   for (std::size_t node = 0; node < nodes_.size(); ++node)
     for (std::size_t k = 1; weights[node] != 0 && k < LawShape::nodes; ++k) {
       const double q = nodes_[node].shape.q(result.overlap(k));  // at the same overlap
-      for (std::size_t f = 0; f < LawShape::functions.size(); ++f)
+      for (std::size_t f = 0; f < changed; ++f)
         (result.*LawShape::functions[f])[k] += weights[node] * changes_[node][f].value(q);
     }
   return result;

@@ -68,7 +68,9 @@ class MidplaneShapes
   MidplaneGrid grid_;
   std::vector<ElasticCorrection> elastic_;
   std::vector<Node> nodes_;
-  std::vector<std::array<Spline, 5>> changes_;  ///< of each node, by q
+  /// The midplane changes force, loading radius and losses; the dent unloads with the free sphere's radii.
+  static constexpr std::size_t changed = LawShape::first_radius;
+  std::vector<std::array<Spline, changed>> changes_;  ///< of each node, by q
   std::vector<MidplaneCheck> checks_;
   double claimed_force_ = 0, claimed_restitution_ = 0, claimed_recovery_ = 0;
 };

@@ -148,7 +148,10 @@ PairBody::Twin PairBody::tabulated(const ContactLaw& law, const ElasticCorrectio
     // -ln of the fraction that is recovered
     t.log_lost.push_back(is_elastic ? 0.0 : -std::log1p(-top.residual() / x));
     t.unloading_work.push_back(unloading.work());
-    t.hertz_share.push_back(unloading.hertz_share);
+    t.unloading.push_back({unloading.hertz_share});
+    const std::array<double, 3> k = law.unloading_radius(x);
+    for (std::size_t j = 0; j < k.size(); ++j)
+      t.unloading.back()[j + 1] = k[j] - elastic.unloading_radius(std::pow(x, 0.25), static_cast<double>(j) / 3);
   }
   return t;
 }
@@ -251,11 +254,19 @@ PairBody::State PairBody::at(double curvature, double contact) const
   return state;
 }
 
-double PairBody::hertz_share(double curvature, double contact, double residual_over_recovered) const
+PairBody::Unloading PairBody::unloading(double curvature, double contact, double residual_over_recovered) const
 {
-  if (!yields()) return elastic_.unloading(std::pow(elastic_overlap(std::max(contact, flat)), 0.25)).hertz_share;
+  if (!yields()) return {elastic_.unloading(std::pow(elastic_overlap(std::max(contact, flat)), 0.25)).hertz_share};
   const Mixed twin = twin_at(curvature, contact);
-  return value(twin, &Twin::hertz_share, place(twin, &Twin::log_lost, std::log1p(residual_over_recovered)));
+  const double node = place(twin, &Twin::log_lost, std::log1p(residual_over_recovered));
+  const auto low = static_cast<std::size_t>(std::clamp(static_cast<int>(node), 0, overlap_nodes - 2));
+  Unloading mixed{};
+  for (std::size_t k = 0; k < twin.weights.size(); ++k) {
+    const std::vector<Unloading>& of_twin = twins_[twin.first + k].unloading;
+    for (std::size_t j = 0; j < mixed.size(); ++j)
+      mixed[j] += twin.weights[k] * between(of_twin[low][j], of_twin[low + 1][j], node - static_cast<double>(low));
+  }
+  return mixed;
 }
 
 }  // namespace granulaw

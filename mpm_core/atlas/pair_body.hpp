@@ -67,9 +67,11 @@ class PairBody
   /// `curvature`: kappa > 0; `contact`: alpha, 0 for a deformable wall.
   State at(double curvature, double contact) const;
 
-  /// Hertz's share of the unloading of the equivalent sphere whose residual overlap is this over the recovered one:
-  /// dents of one shape are reloaded with one shape of the pressure.
-  double hertz_share(double curvature, double contact, double residual_over_recovered) const;
+  /// Hertz's share of an unloading, and k - k_elastic of its radius (LawShape).
+  using Unloading = std::array<double, 4>;
+  /// That of the equivalent sphere whose residual overlap is this over the recovered one: dents of one shape are reloaded
+  /// with one shape of the pressure.
+  Unloading unloading(double curvature, double contact, double residual_over_recovered) const;
 
   /// The same sphere, if it never yielded.
   PairBody elastic() const;
@@ -89,7 +91,8 @@ class PairBody
   struct Twin
   {
     double log_stiffness = 0, log_end = 0;  // ln(E*/Y); where the atlas ends
-    std::vector<double> log_contact, log_pressure, log_overlap, log_lost, unloading_work, hertz_share;
+    std::vector<double> log_contact, log_pressure, log_overlap, log_lost, unloading_work;
+    std::vector<Unloading> unloading;
   };
   /// The equivalent sphere of a stiffness between those kept.
   struct Mixed

@@ -53,7 +53,7 @@ Curve tabulate(const ContactLaw& law)
   for (const double x : yielding) {
     const ContactLaw::Losses now = law.continued_losses(x);
     table.kept.add(now.kept, now.kept_slope), table.span.add(now.span, now.span_slope);
-    table.hertz_share.add(now.share, now.share_slope);
+    table.hertz_share.add(now.share, now.share_slope), table.unloading_radius.push_back(now.unloading_radius);
   }
   make_rise(table.force, nodes), make_rise(table.radius, nodes);
   make_fall(table.kept, yielding), make_fall(table.span, yielding);

@@ -27,9 +27,9 @@ bool is_of_midplane(const AtlasDataset& d)
 {
   return d.presence == Presence::midplane || d.presence == Presence::midplane_checks;
 }
-bool is_of_checks(const AtlasDataset& d)
+bool may_be_absent(const AtlasDataset& d)
 {
-  return d.presence == Presence::checks || d.presence == Presence::midplane_checks;
+  return d.presence == Presence::checks || d.presence == Presence::midplane_checks || d.presence == Presence::radii;
 }
 
 Atlas read_open(hid_t file, const std::string& path)
@@ -38,7 +38,7 @@ Atlas read_open(hid_t file, const std::string& path)
   AtlasParts parts;
   for (const AtlasDataset& dataset : atlas_datasets()) {
     if (is_of_midplane(dataset) && !has_midplane) continue;
-    if (is_of_checks(dataset) && !h5::has_link(file, dataset.field.name)) continue;
+    if (may_be_absent(dataset) && !h5::has_link(file, dataset.field.name)) continue;
     fill(parts, dataset,
          dataset.form == Form::scalar ? std::vector{h5::read_scalar(file, dataset.field, path)}
                            : h5::read_vector(file, dataset.field, most_numbers, path),

@@ -88,12 +88,6 @@ struct PairUnits
   }
 };
 
-/// Overlap that a reversal recovers, over F_m/(2 E* a_m); `radius`: a_m in the curve's unit.
-inline double recovered_overlap(const Reversal& reversal, double radius)
-{
-  return 1.5 * radius / (reversal.per_span * reversal.top());
-}
-
 /// The law: force, stiffness and contact radius of a pair at overlap `delta` (m, > 0) whose largest overlap
 /// so far is `delta_max` (m) and which latched X. No allocation, no exception.
 inline Answer answer(const Curve& curve, const PairUnits& units, double delta, double delta_max,
@@ -104,41 +98,20 @@ inline Answer answer(const Curve& curve, const PairUnits& units, double delta, d
   if (!curve.unloads(x, x_max)) {
     const Curve::Loading now = curve.loading(x, latched);
     return {force * now.force, force * per_length * now.stiffness, radius * now.radius,
-            std::max(delta, delta_max), Answer::Branch::loading};
+            std::max(delta, delta_max)};
   }
   const Reversal reversal = curve.reversal(x_max, latched);
   const double u = reversal.part(x);
-  if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max, Answer::Branch::apart};
-  const double root = std::sqrt(u), slope = reversal.slope_at(u, root), f = reversal.force_at(u, root);
-  const double top = curve.radius(x_max);
-  const DentUnloading dent = DentUnloading::of(recovered_overlap(reversal, top));
-  return {force * f, force * per_length * slope * reversal.per_span,
-          radius * top * std::sin(dent.angle(f / reversal.top())), delta_max, Answer::Branch::unloading};
+  if (u <= 0.0) return {0.0, 0.0, 0.0, delta_max};
+  const double root = std::sqrt(u);
+  return {force * reversal.force_at(u, root), force * per_length * reversal.slope_at(u, root) * reversal.per_span,
+          radius * curve.radius(x_max) * curve.unloading_radius(x_max).share(root), delta_max};
 }
 
 inline Answer answer(const Curve& curve, const PairMapping& mapping, double r_eff, double delta,
                      double delta_max, double latched = 0)
 {
   return answer(curve, PairUnits::of(mapping, r_eff), delta, delta_max, latched);
-}
-
-/// State of a contact between two steps; zero again when the overlap ends.
-struct ContactState
-{
-  double deepest = 0;  ///< m, largest overlap since first touch
-  double latched = 0;  ///< X
-};
-
-/// The same of a contact that keeps its state.
-inline Answer answer(const PairContact& pair, double r_eff, double delta, ContactState& state)
-{
-  if (!(delta > 0)) {
-    state = {};
-    return {0.0, 0.0, 0.0, 0.0, Answer::Branch::apart};
-  }
-  const Answer now = answer(*pair.curve, pair.mapping, r_eff, delta, state.deepest, state.latched);
-  state.deepest = now.delta_max;
-  return now;
 }
 
 }  // namespace granulaw

@@ -90,6 +90,12 @@ Fault curve_fault(const CurveTable& t)
   if (Fault f = wrong_column("span", t.span, late, 1e-6, 1)) return f;
   if (Fault f = wrong_column("hertz_share", t.hertz_share, late, 0, UnloadingShape::largest_hertz_share))
     return f;
+  if (!t.unloading_radius.empty() && t.unloading_radius.size() != late)
+    return {"'unloading_radius' has the wrong length", std::to_string(3 * t.unloading_radius.size()),
+            std::to_string(3 * late)};
+  for (const auto& row : t.unloading_radius)
+    for (const double k : row)
+      if (Fault f = outside("'unloading_radius'", k, UnloadingRadius::least, UnloadingRadius::most)) return f;
   // below its first node the curve is Hertz's: it starts as that; a fit may round
   if (const double ratio = t.force.value.front() / std::pow(x.front(), 1.5); !(std::abs(ratio - 1) <= 1e-3))
     return {"the force does not begin as Hertz's: 'force' at node 0 over it is out of range", number(ratio), "1"};
@@ -311,6 +317,22 @@ Curve::Loading Curve::far_loading(double x, double latched) const
     slow = {first_.force * ratio * root, first_.stiffness * root, first_.radius * root};
   }
   return corrected(slow, x, latched);
+}
+
+UnloadingRadius Curve::unloading_radius(double x_max) const
+{
+  UnloadingRadius at_top;
+  if (!(x_max > yields_from_) || table_.unloading_radius.empty()) return at_top;
+  const double r = std::min(end_, x_max) * per_unit_;
+  const Place p = at(r);
+  const std::size_t row = p.k - first_turn_, next = std::min(row + 1, table_.unloading_radius.size() - 1);
+  const double octave = std::bit_cast<double>(std::bit_cast<std::uint64_t>(r) >> 52 << 52),
+               place = CurveTable::nodes_an_octave * p.t / octave;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const double below = table_.unloading_radius[row][j];
+    at_top.k[j] = below + place * (table_.unloading_radius[next][j] - below);
+  }
+  return at_top;
 }
 
 double Curve::slow_work(double x) const

@@ -36,6 +36,8 @@ struct CurveTable
   HermiteColumn kept;         ///< W_u/W_L of a reversal at x, e squared; never rises
   HermiteColumn span;         ///< 1 - delta_r/delta_m; never rises
   HermiteColumn hertz_share;  ///< A of UnloadingShape
+  /// k of UnloadingRadius, linear between nodes; empty: not stated, and 1.
+  std::vector<std::array<double, 3>> unloading_radius;
 
   CurveTable() = default;
   /// With octaves down to 2^-40, below which Hertz is exact to 1e-6. The columns are empty.
@@ -165,6 +167,10 @@ class Curve
     const Place p = at(r);
     return p.loading.both(p.t)[1];
   }
+
+  /// Contact radius below a reversal at x_max, over that at x_max.
+  UnloadingRadius unloading_radius(double x_max) const;
+  bool states_unloading_radius() const { return !table_.yields() || !table_.unloading_radius.empty(); }
 
   /// True if a contact at x follows the reversal at x_max; else it loads, or never yielded. Of no number:
   /// true, so that its force is none.

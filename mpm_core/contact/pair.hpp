@@ -7,18 +7,10 @@ namespace granulaw {
 /// Answer of a contact to the particle code.
 struct Answer
 {
-  enum class Branch {
-    apart,      ///< nothing touches, whatever the sign of the overlap
-    loading,    ///< at its largest overlap, or never yielded
-    unloading,  ///< or reloading, below its largest overlap
-    held        ///< at an edge that adhesion pins
-  };
-
-  double force;  ///< N, repulsive positive; an adhesive one may be negative: only `branch` says what touches
+  double force;           ///< N, repulsive positive
   double stiffness;       ///< dF/d(overlap) on the branch, N/m
   double contact_radius;  ///< m
   double delta_max;  ///< m, the new largest overlap since first touch: store it if this call advances time
-  Branch branch = Branch::loading;
 };
 
 /// The one rule that carries a one-body law (a sphere on a rigid wall) to every pair (docs/theory/pairs.md).

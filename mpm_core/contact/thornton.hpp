@@ -49,9 +49,9 @@ struct ThorntonPair
     const double area = (2.0 * f_m + f_y) / (2.0 * M_PI * yield_pressure), edge = std::sqrt(area);
     const double elastic = f_m / (hertz * edge);  // d_m - d_p
     const double part = (delta - (delta_max - elastic)) / elastic;
-    if (part <= 0.0) return {0.0, 0.0, 0.0, delta_max, Answer::Branch::apart};
+    if (part <= 0.0) return {0.0, 0.0, 0.0, delta_max};
     const double root_part = std::sqrt(part), a = edge * root_part;  // sqrt(R_p (d - d_p))
-    return {f_m * part * root_part, 2.0 * e_star * a, a, delta_max, Answer::Branch::unloading};
+    return {f_m * part * root_part, 2.0 * e_star * a, a, delta_max};
   }
 
   /// J, elastic energy that a contact holds at overlap `delta` (m): what it gives back on complete unloading.

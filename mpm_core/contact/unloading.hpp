@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace granulaw {
@@ -62,41 +63,21 @@ struct UnloadingShape
   static double largest_hertz_share_of(double work) { return (2.5 - exponent_of(work, 0.0)) / 0.45; }
 };
 
-/// Contact radius of a dent that unloads elastically. The pressure at full load is w times Hertz's half ellipse and
-/// 1 - w times a uniform one. Each unloads by shrinking as a stack of flat punches, in the same radii, so that their
-/// forces add (Mesarovic & Johnson, J. Mech. Phys. Solids 48, 2000, for the uniform one):
-///     F/F_m = w c^3 + (1 - w) (2 t - sin 2 t)/pi,   c = a/a_m = sin t.
-/// The overlap recovered is F_m/(2 E* a_m) times 3/2 of Hertz's and 4/pi of the uniform pressure: it says w.
-struct DentUnloading
+/// Contact radius of a dent while it unloads and reloads: a = a_m sqrt(u) k, u as of UnloadingShape. k is the cubic by
+/// sqrt(u) through three numbers of the dent and 1 at full load. They are measured (docs/theory/law.md): 1 is a dent
+/// under Hertz's pressure; one under a uniform pressure, whose rim stays in contact for longer, has 1.41, 1.37, 1.25.
+struct UnloadingRadius
 {
-  double hertz = 1;  ///< w
+  std::array<double, 3> k{1.0, 1.0, 1.0};  ///< at sqrt(u) = 0, 1/3, 2/3
 
-  /// `recovered`: (delta_m - delta_r) 2 E* a_m/F_m. A stiffer dent than that of the uniform pressure counts as it.
-  static DentUnloading of(double recovered)
+  static constexpr double least = -2.0, most = 10.0;  ///< of k, whose end at 0 is extrapolated
+  /// a/a_m at sqrt(u) = `root`.
+  double share(double root) const
   {
-    constexpr double uniform = 4.0 / M_PI, all = 1.5;
-    return {std::min(std::max((recovered - uniform) / (all - uniform), 0.0), 1.0)};
-  }
-  double force(double t) const
-  {
-    const double c = std::sin(t);
-    return hertz * c * c * c + (1.0 - hertz) * (2.0 * t - std::sin(2.0 * t)) / M_PI;
-  }
-  /// dF/dt over sin^2 t.
-  double slope(double t) const { return 3.0 * hertz * std::cos(t) + (1.0 - hertz) * 4.0 / M_PI; }
-  /// t at F/F_m from 0 to 1, by Newton's method: asin(a/a_m).
-  double angle(double force_share) const
-  {
-    if (!(force_share > 0.0)) return 0.0;
-    if (force_share >= 1.0) return 0.5 * M_PI;
-    // a small share: F = (w + (1 - w) 4/(3 pi)) t^3
-    double t = std::min(std::cbrt(force_share / (hertz + (1.0 - hertz) * 4.0 / (3.0 * M_PI))), 0.5 * M_PI);
-    for (int newton = 0; newton < 12; ++newton) {
-      const double c = std::sin(t), change = (force(t) - force_share) / (c * c * slope(t));
-      t = std::min(std::max(t - change, 0.1 * t), 0.5 * M_PI);
-      if (std::abs(change) < 1e-12) break;
-    }
-    return t;
+    const double t = 3.0 * root, first = k[1] - k[0], second = k[2] - 2.0 * k[1] + k[0],
+                 third = 1.0 - 3.0 * (k[2] - k[1]) - k[0];
+    const double now = k[0] + t * (first + (t - 1.0) * (0.5 * second + (t - 2.0) * (1.0 / 6.0 * third)));
+    return std::min(std::max(root * now, 0.0), 1.0);
   }
 };
 

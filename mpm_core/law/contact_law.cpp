@@ -35,6 +35,7 @@ ContactLaw::ContactLaw(const LawShape& shape, double end)
       dissipation_(shape.by_q(&LawShape::dissipation)),
       share_(shape.by_q(&LawShape::hertz_share))
 {
+  for (std::size_t j = 0; j < radii_.size(); ++j) radii_[j] = shape.by_q(LawShape::functions[LawShape::first_radius + j]);
   tabulate_work();
 }
 
@@ -81,7 +82,18 @@ ContactLaw::Losses ContactLaw::continued_losses(double x) const
           span,
           -span * residual_.slope(at) * per_q,
           share + share_.value(at),
-          per_q * (share_.slope(at) - share * share * s * elastic_.force_ratio_slope(s))};
+          per_q * (share_.slope(at) - share * share * s * elastic_.force_ratio_slope(s)),
+          unloading_radius(x)};
+}
+
+std::array<double, 3> ContactLaw::unloading_radius(double x) const
+{
+  const double s = std::pow(x, 0.25), at = x > onset_ ? q(x) : 0.0;
+  std::array<double, 3> k;
+  for (std::size_t j = 0; j < k.size(); ++j)
+    k[j] = std::clamp(elastic_.unloading_radius(s, static_cast<double>(j) / 3) + radii_[j].value(at),
+                      UnloadingRadius::least, UnloadingRadius::most);
+  return k;
 }
 
 Curve::Top ContactLaw::top(double x) const

@@ -38,6 +38,7 @@ class ContactLaw
   struct Losses
   {
     double kept, kept_slope, span, span_slope, share, share_slope;  ///< as CurveTable has them
+    std::array<double, 3> unloading_radius;
   };
   /// The functions themselves, which do not end: for a table whose last node lies beyond the end.
   Loading continued_loading(double x) const;
@@ -47,6 +48,8 @@ class ContactLaw
   Reversal reversal(double x) const { return Curve::reversal(x, top(x)); }
   double kept(double x) const { return top(x).kept; }
   double span(double x) const { return top(x).span; }
+  /// k of UnloadingRadius below a reversal at x.
+  std::array<double, 3> unloading_radius(double x) const;
 
   /// Overlap at which loading has taken this work: that of an impact of so much kinetic energy, if speed
   /// changed nothing.
@@ -60,6 +63,7 @@ class ContactLaw
   double onset_ = std::numeric_limits<double>::infinity(), end_;
   ElasticCorrection elastic_;
   Spline reduction_, widening_, residual_, dissipation_, share_;  // by q
+  std::array<Spline, 3> radii_;                                   // k - k_elastic, by q
   HermiteColumn log_work_;                                        // from the onset to the end, even in q
   Loading last_{};
   double last_work_ = 0;

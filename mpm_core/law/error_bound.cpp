@@ -50,7 +50,7 @@ ErrorBound joined(const ErrorBound& a, const ErrorBound& b, double (*join)(doubl
                   larger_costs(a.omitted_axis, b.omitted_axis)};
   for (const auto part :
        {&ErrorBound::axis_restitution, &ErrorBound::swing_force, &ErrorBound::swing_restitution,
-        &ErrorBound::size_force, &ErrorBound::size_restitution})
+        &ErrorBound::size_force, &ErrorBound::size_restitution, &ErrorBound::confined_force})
     both.*part = std::max(a.*part, b.*part);
   return both;
 }

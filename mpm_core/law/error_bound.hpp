@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct ErrorBound
   double swing_force = 0, swing_restitution = 0;
   /// Further error at another size, over the distance in R_s/(R_s + R_h); infinity: none is known.
   double size_force = 0.004 / size_share_step, size_restitution = 0.002 / size_share_step;
+  /// Further error of F, relative, where other contacts press the particle as well; infinity: none is stated.
+  double confined_force = std::numeric_limits<double>::infinity();
 
   bool stated() const { return force > 0 || restitution > 0 || relative_restitution > 0; }
   /// The same of an impact at the speed `v` of the velocity axis (PairLaw::axis_speed). The cost is a known

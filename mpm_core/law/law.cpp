@@ -55,6 +55,16 @@ std::vector<double> Law::size_shares(const std::string& a, const std::string& b)
   return shares;
 }
 
+bool Law::states_unloading_radius() const
+{
+  const auto of_body = [](const auto& entry) { return entry.second.curve.states_unloading_radius(); };
+  const auto of_pair = [](const auto& entry) {
+    return std::all_of(entry.second.begin(), entry.second.end(),
+                       [](const TwoBodyLaw& own) { return own.law.curve.states_unloading_radius(); });
+  };
+  return std::all_of(bodies.begin(), bodies.end(), of_body) && std::all_of(pair_laws.begin(), pair_laws.end(), of_pair);
+}
+
 std::string Law::pair_list() const
 {
   std::vector<std::string> names;

@@ -121,6 +121,8 @@ struct Law
   std::vector<double> size_shares(const std::string& a, const std::string& b) const;
   /// "a:b, a:wall, ..." for messages.
   std::string pair_list() const;
+  /// True if every curve has contact radii of unloading: files before version 6 have none.
+  bool states_unloading_radius() const;
 };
 
 /// Throws Error naming `where` if one of two different bodies is no homogeneous sphere: pairs are mapped by

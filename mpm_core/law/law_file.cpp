@@ -261,6 +261,14 @@ Curve read_curve(hid_t group, const std::string& where)
     const bool only_yielding = &f >= h5::curve_columns + 2;
     if (!only_yielding || table.yields()) read_column(c, f, table, where);
   }
+  if (h5::has_link(c, h5::unloading_radius.name)) {
+    const std::vector<double> values = h5::read_vector(c, h5::unloading_radius, 3 * most_nodes, where);
+    if (values.size() % 3 != 0)
+      fail(where, fmt::format("'{}' has the wrong length", h5::unloading_radius.name), std::to_string(values.size()),
+           "a multiple of 3");
+    for (std::size_t k = 0; k < values.size(); k += 3)
+      table.unloading_radius.push_back({values[k], values[k + 1], values[k + 2]});
+  }
   std::optional<AxisTable> axis;
   if (h5::has_link(group, h5::velocity_axis)) axis = read_axis(group, where);
   if (const Fault fault = Curve::fault(table, axis ? &*axis : nullptr))
@@ -277,6 +285,9 @@ void write_curve(hid_t group, const Curve& curve, const std::string& path)
   h5::write_scalar(c, h5::octaves, table.octaves, path);
   for (const auto& f : h5::curve_columns)
     if ((table.*f.column).size() > 0) write_column(c, f, table, path);
+  std::vector<double> radii;
+  for (const auto& row : table.unloading_radius) radii.insert(radii.end(), row.begin(), row.end());
+  if (!radii.empty()) h5::write_vector(c, h5::unloading_radius, radii, path);
   if (curve.axis()) write_axis(group, *curve.axis(), path);
 }
 
@@ -308,7 +319,8 @@ void read_errors(hid_t group, BodyLaw& law, const std::string& where)
     }
   certificate.origin = h5::read_text_attribute(k, h5::origin, where);
   if (h5::has_link(k, h5::bound_fields[0].field.name)) {
-    for (const h5::BoundField& f : h5::bound_fields) law.bound.*f.value = h5::read_scalar(k, f.field, where);
+    for (const h5::BoundField& f : h5::bound_fields)
+      if (f.value != &ErrorBound::confined_force || h5::has_link(k, f.field.name)) law.bound.*f.value = h5::read_scalar(k, f.field, where);
     return;
   }
   law.state();
@@ -447,7 +459,7 @@ h5::Handle open_law(const std::string& path)
     fail(path, "is an HDF5 file but not a contact law of granulaw");
   const int major = h5::read_int_attribute(file, h5::version_major, path);
   if (major < h5::oldest_major)
-    fail(path, fmt::format("a law file of version {}, and this program reads {} and {}: make it anew with `{}`",
+    fail(path, fmt::format("a law file of version {}, and this program reads {} to {}: make it anew with `{}`",
                            major, h5::oldest_major, h5::major, command_of(file, path)));
   if (major > h5::major)
     fail(path, "the law file's major version is not the one this program reads", std::to_string(major),

@@ -20,15 +20,15 @@ void add_to(std::vector<double>& sum, double weight, const std::vector<double>& 
 LawShape LawShape::zero(double onset, double end)
 {
   const std::vector<double> none(nodes, 0.0);
-  LawShape shape{{}, none, none, none, none, none, {}, onset, end};
+  LawShape shape{{}, none, none, none, none, none, none, none, none, {}, onset, end};
   for (const double v : impact_speeds)
     shape.velocity_effects.push_back({v, 0, 0, 0, std::vector<double>(VelocityEffect::shares, 0.0)});
   return shape;
 }
 
-const std::array<std::vector<double> LawShape::*, 5> LawShape::functions = {
+const std::array<std::vector<double> LawShape::*, LawShape::function_count> LawShape::functions = {
     &LawShape::force_reduction, &LawShape::widening, &LawShape::residual, &LawShape::dissipation,
-    &LawShape::hertz_share};
+    &LawShape::hertz_share,     &LawShape::radius_0, &LawShape::radius_1, &LawShape::radius_2};
 
 void ElasticCorrection::add(double weight, const ElasticCorrection& other)
 {
@@ -45,8 +45,7 @@ void LawShape::add(double weight, const LawShape& other, Part part)
     add_to(widening, weight, other.widening);
   }
   if (wanted(Part::unloading))
-    for (const auto member : {&LawShape::residual, &LawShape::dissipation, &LawShape::hertz_share})
-      add_to(this->*member, weight, other.*member);
+    for (std::size_t f = 2; f < functions.size(); ++f) add_to(this->*functions[f], weight, other.*functions[f]);
   for (std::size_t k = 0; wanted(Part::impacts) && k < velocity_effects.size(); ++k) {
     VelocityEffect& effect = velocity_effects[k];
     for (double VelocityEffect::*number :
@@ -80,6 +79,8 @@ LawShape LawShape::as_skin_of(const ElasticCorrection& body, double known) const
   LawShape result = *this;
   result.elastic = body;
   result.velocity_effects = zero().velocity_effects;
+  std::array<Spline, 3> radii;
+  for (std::size_t j = 0; j < 3; ++j) radii[j] = by_q(functions[first_radius + j]);
   for (std::size_t k = 1; k < nodes; ++k) {
     const double x = overlap(k);
     if (x > known) {
@@ -95,6 +96,7 @@ LawShape LawShape::as_skin_of(const ElasticCorrection& body, double known) const
     result.widening[k] = std::log(sphere.radius(skin) / (std::sqrt(x) * body.radius_ratio(s)));
     result.residual[k] = -std::log1p(-sphere.reversal(skin).residual() / x);
     result.dissipation[k] = -std::log((returned + below) / (work + below));
+    for (std::size_t j = 0; j < 3; ++j) (result.*functions[first_radius + j])[k] = radii[j].value(q(skin));
   }
   return result;
 }

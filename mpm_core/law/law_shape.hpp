@@ -28,6 +28,11 @@ struct ElasticCorrection
   }
   double radius_ratio(double s) const { return 1 + d1 * s * s; }
   double radius_ratio_slope(double s) const { return 2 * d1 * s; }
+  /// k of UnloadingRadius from s at sqrt(u) = `root`.
+  double unloading_radius(double s, double root) const
+  {
+    return (1 + d1 * s * s * root) / radius_ratio(s);
+  }
   /// this += weight * other, of which neither has a measured part.
   void add(double weight, const ElasticCorrection& other);
   /// Unloading from s along the elastic curve itself (c3 = 0): x^1.5 (1 + c1 sqrt(x) + c2 x).
@@ -57,6 +62,7 @@ struct ElasticFit
 ///     force_reduction  -ln(F_L/F_elastic)       residual     -ln(1 - delta_r/delta_m)
 ///     widening         ln(a/a_elastic)         dissipation  -ln(W_u/W_L) = -2 ln e
 ///     hertz_share      A - A_elastic of the unloading's shape
+///     radius_0, _1, _2 k - k_elastic of UnloadingRadius, each
 /// Differences and means of shapes are shapes again: that is how they are interpolated between materials.
 struct LawShape
 {
@@ -75,8 +81,9 @@ struct LawShape
   };
 
   ElasticCorrection elastic;
-  std::vector<double> force_reduction, widening, residual, dissipation, hertz_share;
-  static const std::array<std::vector<double> LawShape::*, 5> functions;  ///< these
+  std::vector<double> force_reduction, widening, residual, dissipation, hertz_share, radius_0, radius_1, radius_2;
+  static constexpr std::size_t function_count = 8, first_radius = 5;
+  static const std::array<std::vector<double> LawShape::*, function_count> functions;  ///< these
   std::vector<VelocityEffect> velocity_effects;                           ///< ascending speed
   double onset = 0, end = 0;  ///< overlap/R of first yield; where the functions end
 

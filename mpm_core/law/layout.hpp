@@ -19,8 +19,9 @@ inline constexpr const char* format = "format";
 inline constexpr const char* format_value = "granulaw-law";
 inline constexpr const char* version_major = "version_major";
 inline constexpr const char* version_minor = "version_minor";
-inline constexpr int major = 5;                      ///< counts up where an old reader would misread the file
-inline constexpr int oldest_major = 4;               ///< read as well: it has no bounds, which follow from its certificates
+inline constexpr int major = 6;                      ///< counts up where an old reader would misread the file
+/// Read as well. Files before 6 have no `unloading_radius`, those before 5 no bounds, which follow from their certificates.
+inline constexpr int oldest_major = 4;
 inline constexpr int minor = 1;                      ///< counts up where something is only added
 inline constexpr int first_minor_with_checksum = 1;  ///< files of other writers may say 0 and have none
 
@@ -107,6 +108,11 @@ inline constexpr ColumnField<CurveTable> curve_columns[] = {
      {"hertz_share_slope", "1", "d(hertz_share)/dx"},
      &CurveTable::hertz_share}};
 
+/// Beside the columns, without slopes: linear between nodes.
+inline constexpr Field unloading_radius{
+    "unloading_radius", "1",
+    "contact radius below a reversal at x over that at x times sqrt(u), at sqrt(u) = 0, 1/3, 2/3, node after node; from the onset on"};
+
 // bodies/<name>/velocity_axis
 struct AxisNumber
 {
@@ -190,7 +196,8 @@ inline constexpr BoundField bound_fields[] = {
     {{"bound_swing_force", "1", "further error of F_max of an elastic sphere, over V/c*"}, &ErrorBound::swing_force},
     {{"bound_swing_restitution", "1", "the same of e"}, &ErrorBound::swing_restitution},
     {{"bound_size_force", "1", "further error of F_max over a distance of 0.025 and more in R_s/(R_s + R_h); infinity: not stated"}, &ErrorBound::size_force},
-    {{"bound_size_restitution", "1", "the same of e"}, &ErrorBound::size_restitution}};
+    {{"bound_size_restitution", "1", "the same of e"}, &ErrorBound::size_restitution},
+    {{"bound_confined_force", "1", "further error of F of a particle pressed from all sides; infinity: not stated"}, &ErrorBound::confined_force}};
 /// Lists of ErrorBound::omitted_axis: all or none, of equal length, ascending in the first.
 struct AxisCostField
 {

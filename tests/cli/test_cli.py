@@ -414,8 +414,8 @@ def test_law():
     refused(["check", "cut.h5"], "cut.h5", "cut off")
     Path("cut.h5").write_bytes(Path(LAW).read_bytes())
     with h5py.File("cut.h5", "r+") as file:
-        file.attrs.modify("version_major", np.int32(6))
-    refused(["plot", "cut.h5", "-o", "x.png"], "major version", "found 6", "allowed is 5")
+        file.attrs.modify("version_major", np.int32(7))
+    refused(["plot", "cut.h5", "-o", "x.png"], "major version", "found 7", "allowed is 6")
     assert Run("plot", LAW, "-o", "law.png").code == 0 and Path("law.png").stat().st_size > 10000
     for name, words in (("like", ["powder:powder", "--radius", "1e-3", "--radius2", "inf"]), ("wall", ["wall:powder", "--velocity", "3"])):
         done = Run("plot", LAW, "--pair", *words, "-o", f"{name}.png")

@@ -133,6 +133,7 @@ class Contents
     const CurveTable& table = b.curve.table();
     add({table.onset, table.end, table.octaves * 1.0});
     for (const auto& f : h5::curve_columns) add((table.*f.column).value), add((table.*f.column).slope);
+    for (const auto& row : table.unloading_radius) add({row[0], row[1], row[2]});
     for (const auto& f : h5::certificate_fields) add(b.certificate.*f.value);
     for (const auto& f : h5::bound_fields) add(b.bound.*f.value);
     for (const AxisCost& cost : b.bound.omitted_axis)
@@ -262,7 +263,7 @@ TEST_F(LawFile, OlderOrientationsHaveNoBodyBehindTheContact)
   EXPECT_FALSE(read_law(path_).bodies.at("powder").shape->has_body());
 }
 
-/// Makes an open file one of major version 4, without bounds.
+/// Makes an open file one of major version 4, without bounds and radii of unloading.
 void of_version_4(hid_t file)
 {
   tests::without_checksum(file);
@@ -270,6 +271,7 @@ void of_version_4(hid_t file)
   const hid_t attribute = H5Aopen(file, "version_major", H5P_DEFAULT);
   H5Awrite(attribute, H5T_NATIVE_INT, &major);
   H5Aclose(attribute);
+  without("bodies/powder/curve/unloading_radius")(file);
   for (const char* body : {"powder", "glass"})
     for (const auto& f : h5::bound_fields) without(std::string("bodies/") + body + "/certificate/" + f.field.name)(file);
 }
@@ -286,6 +288,9 @@ TEST_F(LawFile, AFileOfVersion4HasTheBoundOfItsCertificate)
   EXPECT_DOUBLE_EQ(read.bodies.at("powder").bound.force, 0.005);
   EXPECT_EQ(read.bodies.at("powder").bound.restitution, 0.015);
   EXPECT_GT(read.bodies.at("glass").bound.swing_force, 0);
+  EXPECT_FALSE(read.states_unloading_radius());
+  EXPECT_EQ(read.bodies.at("powder").curve.unloading_radius(0.01).share(0.5), 0.5);
+  EXPECT_TRUE(law.states_unloading_radius());
 }
 
 /// An older file states the cost at the end alone; slower impacts take a part of it.
@@ -315,14 +320,15 @@ TEST_F(LawFile, DamagesAreNamed)
   refused(SyntheticLaw{}.law(),
           {{[](hid_t f) { overwrite(f, "bodies/powder/curve/kept", [](auto& v) { v[30] *= 0.9999; }); }, "its data do not have its checksum"},
            {without_attribute(".", "checksum"), "its checksum is missing"},
-           {version(6), "major version"},
-           {version(6), "found 6, allowed is 5"},
-           {version(3), "a law file of version 3, and this program reads 4 and 5: make it anew with `mpm table x.toml`"},
+           {version(7), "major version"},
+           {version(7), "found 7, allowed is 6"},
+           {version(3), "a law file of version 3, and this program reads 4 to 6: make it anew with `mpm table x.toml`"},
            {set(body + "certificate/bound_force", -0.1), "bound_force"},
            {set(body + "certificate/bound_force", INFINITY), "bound_force"},
            {without(body + "certificate/bound_restitution"), "bound_restitution"},
            {without(body + "pole_radius"), "pole_radius"},
            {without(body + "curve/hertz_share"), "hertz_share"},
+           {set(body + "curve/unloading_radius", NAN), "unloading_radius"},
            {without(body + "curve/onset"), ""},
            {without(body + "certificate/axis_cost_force"), "axis_cost_force"},
            {without("bodies"), "bodies"},

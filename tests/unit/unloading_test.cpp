@@ -73,4 +73,15 @@ RC_GTEST_PROP(Unloading, SlopeAndWorkAreItsDerivativeAndIntegral, ())
   RC_ASSERT(std::abs(UnloadingShape::exponent_of(shape.work(), shape.hertz_share) - shape.exponent) < 1e-13);
 }
 
+/// Under a uniform pressure a stack of flat punches leaves: a = a_m sin t at u = 1 - cos t, so k = sqrt(2 - u).
+TEST(Unloading, RadiusIsThatOfKnownPressures)
+{
+  const UnloadingRadius uniform{{std::sqrt(2.0), std::sqrt(2 - 1 / 9.0), std::sqrt(2 - 4 / 9.0)}};
+  for (const double root : {0.0, 0.1, 0.25, 0.5, 0.7, 0.9, 1.0}) {
+    EXPECT_NEAR(uniform.share(root), root * std::sqrt(2 - root * root), 2e-3) << root;  // a cubic by the root
+    EXPECT_NEAR(UnloadingRadius{}.share(root), root, 1e-15);
+  }
+  EXPECT_EQ((UnloadingRadius{{1, 1, 2}}.share(0.8)), 1);  // never wider than at full load
+}
+
 }  // namespace granulaw::unloading_test

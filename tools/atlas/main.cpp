@@ -54,6 +54,7 @@ void define(Options& command, AtlasCommand& r)
   command.add_option("-o,--output", r.output, "atlas, NAME.h5").required();
   const Option from = command.add_option("--from", r.from, "an atlas whose materials stay as they are: only those that it lacks and the fresh impacts are run");
   command.add_flag("--impacts", r.atlas.impacts_anew, "with --from: recompute the fast impacts (velocity effects) of its materials (an hour of CPU time)").needs(from);
+  command.add_flag("--radii", r.atlas.radii_alone, "with --from: recompute the radii of unloading alone, by presses of 40 materials (a quarter of an hour of CPU time)").needs(from);
   command.add_flag("--midplane", r.atlas.midplane_alone, "with --from: recompute the midplane presses alone (half an hour of CPU time)").needs(from);
   command.add_option("--midplane-checks", r.atlas.midplane_checks, "fresh midplane presses, which measure their error")
       .check(whole_from_to(20, 100000))

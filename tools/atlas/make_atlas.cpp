@@ -4,6 +4,7 @@
 
 #include "atlas_build.hpp"
 #include "midplane_build.hpp"
+#include "radii_build.hpp"
 #include "characterise/run/sampling_plan.hpp"
 
 namespace granulaw {
@@ -35,6 +36,10 @@ Atlas with_midplane(const Atlas& free, const AtlasRequest& r, Farm& farm, const 
 
 Atlas make_atlas(const AtlasRequest& r, Farm& farm, const Progress& progress)
 {
+  if (r.radii_alone) {
+    const RadiusGrid few;
+    return with_radii(*r.known, few, farm.run(radius_jobs(few, RunSource{}), progress));
+  }
   if (r.midplane_alone) return with_midplane(*r.known, r, farm, progress, 0);
   const KnownAtlas known{r.known, r.impacts_anew};
   const AtlasGrid grid;

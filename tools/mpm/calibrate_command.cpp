@@ -11,7 +11,7 @@
 #include "calibrate/sphere_laws.hpp"
 #include "calibration_options.hpp"
 #include "calibration_output.hpp"
-#include "characterise/build/slow_law.hpp"
+#include "characterise/build/build_law.hpp"
 #include "command.hpp"
 #include "farm_options.hpp"
 #include "json_output.hpp"

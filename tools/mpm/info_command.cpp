@@ -8,11 +8,12 @@
 
 #include "base/error.hpp"
 #include "characterise/body/law_material.hpp"
-#include "characterise/build/support_ratio.hpp"
 #include "collision_report.hpp"
 #include "command.hpp"
+#include "law/contact_law.hpp"
 #include "law/law_file.hpp"
 #include "law/pair_lines.hpp"
+#include "own_files.hpp"
 #include "shape_output.hpp"
 
 namespace granulaw {
@@ -68,6 +69,16 @@ void print_errors(const BodyLaw& body)
     fmt::print("  against {:.0f} impacts    {}\n", c.verification_impacts, errors_text(c.verification_error_force, c.verification_error_restitution));
 }
 
+/// Why there is no single pair law at large overlaps: the same sphere between two platens, by the atlas.
+void print_support(const BodyLaw& body)
+{
+  static const std::optional<Atlas> atlas = own_atlas();
+  const MaterialRatios m = MaterialRatios::of(body.material);
+  if (!body.is_sphere() || !body.material.flow.strain.empty() || !atlas || atlas->midplane().empty() || !atlas->why_not(m).empty()) return;
+  const double x = std::min(body.curve.end(), MidplaneShapes::depth);
+  fmt::print("  support matters      F free/F midplane {:.3g} at delta/R = {:.3g}\n", body.curve.force(x) / ContactLaw(atlas->midplane_shape(m)).force(x), x);
+}
+
 void print_body(const BodyLaw& body, const std::map<std::string, std::string>& provenance)
 {
   const LawMaterial& m = body.material;
@@ -86,7 +97,7 @@ void print_body(const BodyLaw& body, const std::map<std::string, std::string>& p
     fmt::print("  shape                {}\n", printable(body.shape->shape.substr(0, 100)));
     print_shape("  orientations", *body.shape);
   }
-  if (m.yields()) fmt::print("  support matters      F free/F midplane about {:.3g} at its largest overlap (E*/Y = 100)\n", support_ratio(body.curve.end()));
+  if (m.yields()) print_support(body);
 }
 
 void print_pair(const Law& law, const LawPair& pair)

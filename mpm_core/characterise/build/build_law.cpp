@@ -380,4 +380,13 @@ BuiltLaw build_law(const std::string& name, const Particle& particle, const Buil
   return build_law(material, body, options);
 }
 
+Curve slow_law_by_runs(const std::string& name, const Material& material, double depth, const Atlas& atlas, Farm& farm,
+                       const Progress& progress)
+{
+  BuildOptions options;
+  options.depth = depth, options.fastest = 0;
+  options.atlas = &atlas, options.farm = &farm, options.progress = progress;
+  return build_law(law_material(name, material), characterised_body_of(material), options).law.curve;
+}
+
 }  // namespace granulaw

@@ -47,4 +47,8 @@ BuiltLaw build_law(const LawMaterial& material, const CharacterisedBody& body, c
 BuiltLaw build_law(const LawMaterial& material, const CharacterisedBody& body, const BuildOptions& options,
                    const RunSource& source);
 
+/// The rate-independent law of a sphere of this material on a rigid flat to overlap/R = `depth`, by runs.
+Curve slow_law_by_runs(const std::string& name, const Material& material, double depth, const Atlas& atlas, Farm& farm,
+                       const Progress& progress);
+
 }  // namespace granulaw

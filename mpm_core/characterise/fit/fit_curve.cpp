@@ -67,6 +67,12 @@ double dissipation_measure(const ContactRecord& p)
   return -std::log(std::clamp(p.work_ratio, 1e-6, 1.0));
 }
 
+/// k - k_elastic of an unloading's radius at sqrt(u) = j/3.
+double radius_measure(const ContactRecord& p, const ElasticCorrection& elastic, std::size_t j)
+{
+  return p.radius.k[j] - elastic.unloading_radius(std::pow(p.depth, 0.25), static_cast<double>(j) / 3);
+}
+
 /// A of an unloading from x along the elastic curve.
 double elastic_hertz_share(const ElasticCorrection& elastic, double x)
 {
@@ -88,15 +94,15 @@ void add_known(Samples& samples, const LawShape* known, std::vector<double> LawS
 }
 
 /// A reversal point's function of q: few accurate points, about one knot interval for each. `smoothing`: 0.03
-/// is only enough to bridge gaps.
+/// is only enough to bridge gaps. `fewer_cells`: power of the depth over the press's with which a reversal counts.
 Spline reversal_spline(std::span<const ContactRecord> presses, double onset, double q_end,
                              const auto& of, const LawShape* known, std::vector<double> LawShape::*function,
-                             double smoothing = 0.03)
+                             double smoothing = 0.03, double fewer_cells = 0)
 {
   Samples samples;
   double q_first = q_end;
   for (const ContactRecord& p : presses) {
-    samples.push_back({q_of(p.depth, onset), of(p), 1.0});
+    samples.push_back({q_of(p.depth, onset), of(p), p.run_depth > 0 ? std::pow(p.depth / p.run_depth, fewer_cells) : 1.0});
     q_first = std::min(q_first, samples.back().q);
   }
   add_known(samples, known, function, q_first, q_end, 1.0);
@@ -278,11 +284,11 @@ struct ShapeFit
   FitQuality quality() const;
   Spline force_reduction() const { return shape.by_q(&LawShape::force_reduction); }
   double q_end() const { return shape.q(shape.end); }
-  void add_departure(const std::array<Samples, 5>& samples);
+  void add_departure(const std::array<Samples, LawShape::function_count>& samples);
 };
 
 /// Adds what runs differ by from the guide.
-void ShapeFit::add_departure(const std::array<Samples, 5>& samples)
+void ShapeFit::add_departure(const std::array<Samples, LawShape::function_count>& samples)
 {
   Departure::Points points;
   for (std::size_t f = 0; f < points.size(); ++f) {
@@ -306,7 +312,7 @@ void ShapeFit::fit_loading()
       radius.push_back({q, std::log(a / (std::sqrt(x) * shape.elastic.radius_ratio(s))), weight});
       q_first = std::min(q_first, q);
     }
-  if (guided) return add_departure({force, radius, {}, {}, {}});
+  if (guided) return add_departure({force, radius});
   if (known) {
     // as much as a press's samples would weigh there, all in all
     double weights = 0;
@@ -343,12 +349,14 @@ void ShapeFit::fit_reversals()
     return p.hertz_share - elastic_hertz_share(shape.elastic, p.depth);
   };
   if (guided) {
-    std::array<Samples, 5> samples;
+    std::array<Samples, LawShape::function_count> samples;
     for (const ContactRecord& p : reversals) {
       const double q = shape.q(p.depth), weight = resolution_weight(p.depth, p.run_depth);
       samples[2].push_back({q, residual(p), weight});
       samples[3].push_back({q, dissipation_measure(p), weight});
       samples[4].push_back({q, hertz_share(p), weight});
+      for (std::size_t j = 0; j < 3; ++j)
+        samples[LawShape::first_radius + j].push_back({q, radius_measure(p, shape.elastic, j), weight});
     }
     add_departure(samples);
   } else {
@@ -360,6 +368,7 @@ void ShapeFit::fit_reversals()
     spline(dissipation_measure, &LawShape::dissipation, 0.03);
     // The contact edge's grid noise of a per cent of F moves a Hertz coefficient by 0.3.
     spline(hertz_share, &LawShape::hertz_share, 0.1);
+    fit_radii(shape, reversals, known);
   }
   shape.velocity_effects = fit_velocity_effects(records.fast, shape, shape.onset, shape.end);
 }
@@ -403,6 +412,20 @@ FittedShape checked(const FittedShape& fitted)
 }
 
 }  // namespace
+
+void fit_radii(LawShape& shape, std::span<const ContactRecord> reversals, const LawShape* known)
+{
+  // The contact edge's grid noise moves k by a few per cent, and by tenths where a press passes with half of its cells:
+  // such a reversal counts as its depth over the press's to this power.
+  constexpr double smoothing = 0.1, fewer_cells = 1.6;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const auto function = LawShape::functions[LawShape::first_radius + j];
+    shape.*function = reversal_spline(reversals, shape.onset, shape.q(shape.end),
+                                      [&](const ContactRecord& p) { return radius_measure(p, shape.elastic, j); }, known,
+                                      function, smoothing, fewer_cells)
+                          .values(LawShape::nodes);
+  }
+}
 
 ContactRecord without_inertia(const ContactRecord& impact, std::span<const LawShape::VelocityEffect> effects)
 {

@@ -38,6 +38,9 @@ struct FittedShape
 FittedShape fit_shape(const ContactRecords& records, const ElasticCorrection& elastic, double onset,
                       double x_end, const LawShape* known = nullptr);
 
+/// The shape's radii of unloading by the reversals of slow runs beyond its onset. `known`: as in fit_shape().
+void fit_radii(LawShape& shape, std::span<const ContactRecord> reversals, const LawShape* known = nullptr);
+
 /// The law of a body with a guide, over the guide's range: guide plus departure (atlas/departure.hpp), which the
 /// records show. A reversal counts as well as the cells of its run resolve its contact.
 FittedShape fit_about(const LawShape& guide, const ContactRecords& records);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "contact/unloading.hpp"
+#include "linear/linear.hpp"
 
 namespace granulaw {
 
@@ -122,7 +123,44 @@ double residual_as_long(const UnloadingPath& path, double reversal_force, double
 
 namespace {
 
-/// Residual, Hertz coefficient and path of an unloading whose force ended at the overlap `touched`.
+/// k of an unloading from `depth` to `residual`: least squares of the relative radius over sqrt(u), from `least` on, below
+/// which the contact spans too few cells. Grid noise of the contact edge shows in the cubic term first: it is damped.
+UnloadingRadius fit_radius(std::span<const TraceSample> unloading, double depth, double residual)
+{
+  constexpr double least = 0.2, damping = 0.005;
+  constexpr Eigen::Index terms = 3;  // k = 1 + (1 - v)(b_0 + b_1 v + b_2 v^2)
+  const double widest = unloading.front().contact_radius;
+  std::vector<std::array<double, 3>> samples;  // v, k, weight
+  double last = 1;
+  for (const TraceSample& s : unloading) {
+    const double v = std::sqrt(std::max(0.0, (s.delta - residual) / (depth - residual)));
+    if (!(v < last) || !(s.contact_radius > 0)) continue;
+    if (v < least) break;
+    const double k = s.contact_radius / (widest * v);
+    samples.push_back({v, k, std::sqrt(last - v) / k});
+    last = v;
+  }
+  if (samples.size() < 10) return {};
+  const auto rows = static_cast<Eigen::Index>(samples.size());
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows + 1, terms);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(rows + 1);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const auto [v, k, weight] = samples[static_cast<std::size_t>(row)];
+    for (Eigen::Index term = 0; term < terms; ++term)
+      a(row, term) = weight * (1 - v) * std::pow(v, static_cast<double>(term));
+    b(row) = weight * (k - 1);
+  }
+  a(rows, terms - 1) = damping;
+  const Eigen::VectorXd c = least_squares(a, b);
+  UnloadingRadius fit;
+  for (std::size_t j = 0; j < fit.k.size(); ++j) {
+    const double v = static_cast<double>(j) / 3;
+    fit.k[j] = std::clamp(1 + (1 - v) * (c(0) + v * (c(1) + v * c(2))), UnloadingRadius::least, UnloadingRadius::most);
+  }
+  return fit;
+}
+
+/// Residual, Hertz coefficient, radius and path of an unloading whose force ended at the overlap `touched`.
 void set_unloading(ContactRecord& press, std::span<const TraceSample> unloading, double touched)
 {
   press.residual = std::max(0.0, touched);
@@ -134,6 +172,7 @@ void set_unloading(ContactRecord& press, std::span<const TraceSample> unloading,
   const UnloadingFit fit = fit_unloading(path, press.reversal_force);
   press.residual = std::max(0.0, fit.residual);
   press.hertz_share = fit.hertz_share;
+  press.radius = fit_radius(unloading, press.depth, press.residual);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "contact/unloading.hpp"
 #include "solver/output/trace.hpp"
 
 namespace granulaw {
@@ -37,6 +38,7 @@ struct ContactRecord
   double depth = 0;             ///< x_m, largest overlap/R
   double residual = 0;          ///< overlap/R at which the law's unloading ends: UnloadingFit
   double hertz_share = 1;       ///< A of its shape
+  UnloadingRadius radius{};     ///< as its contact shrinks
   double work_ratio = 0;        ///< work given back/work put in, W_u/W_L = e^2
   double reversal_force = 0;    ///< as computed just before the reversal, F/(4/3 E* R^2); 0: not known
   double peak = 0;              ///< the summary's force_max, F/(4/3 E* R^2); 0: not known

@@ -14,7 +14,7 @@
 #include "calibrate/design.hpp"
 #include "calibrate/kind/kind.hpp"
 #include "calibrate/noise.hpp"
-#include "characterise/build/slow_law.hpp"
+#include "characterise/build/build_law.hpp"
 #include "own_atlas.hpp"
 
 namespace granulaw::calibrate_test {

@@ -24,6 +24,8 @@ TEST(CurveTest, FollowsTheFunctionsOfItsTable)
     if (x > law.onset) {
       EXPECT_NEAR(curve.top(x).span, law.span(x), 1e-5) << x;
       EXPECT_NEAR(curve.top(x).share, law.hertz_share(x), 1e-5) << x;
+      for (std::size_t j = 0; j < 3; ++j)  // 1e-3: linear between nodes
+        EXPECT_NEAR(curve.unloading_radius(x).k[j], law.unloading_radius(x, j), 1e-3) << x;
     }
   }
 }
@@ -197,6 +199,9 @@ TEST(CurveTest, RefusesUnusableTables)
   EXPECT_EQ(fault([](auto& t) { t.span.value[5] = 0; }), "'span' at node 5 is out of range");
   EXPECT_EQ(fault([](auto& t) { t.hertz_share.value[5] = -0.01; }),
             "'hertz_share' at node 5 is out of range");
+  EXPECT_EQ(fault([](auto& t) { t.unloading_radius.pop_back(); }), "'unloading_radius' has the wrong length");
+  EXPECT_EQ(fault([](auto& t) { t.unloading_radius[3][1] = 11; }), "'unloading_radius' is out of range");
+  EXPECT_EQ(fault([](auto& t) { t.unloading_radius.clear(); }), "");  // older files
   EXPECT_EQ(fault([](auto& t) { t.end = 0; }), "'end' is out of range");
   EXPECT_EQ(fault([](auto& t) { t.onset = NAN; }), "'onset' is out of range");
   EXPECT_EQ(fault([](auto& t) { t.octaves = 1000; }), "'octaves' is out of range");
@@ -214,23 +219,6 @@ TEST(CurveTest, RefusesAGainOfEnergy)
   table = SyntheticTables{}.table();
   table.kept.slope[20] *= 20;
   EXPECT_EQ(Curve::fault(table).what, "'kept' rises between nodes 19 and 20");
-}
-
-/// The branch says what touches, not the sign of the force.
-TEST(ContactAnswer, TheBranchSaysWhatTouches)
-{
-  const Curve curve = SyntheticTables{}.curve();
-  const PairContact pair{&curve, tests::unit_pair};
-  ContactState state;
-  using Branch = Answer::Branch;
-  EXPECT_EQ(answer(pair, 1, 0.0, state).branch, Branch::apart);
-  EXPECT_EQ(answer(pair, 1, 1e-5, state).branch, Branch::loading);
-  EXPECT_EQ(answer(pair, 1, 1e-2, state).branch, Branch::loading);
-  EXPECT_EQ(answer(pair, 1, 9.9e-3, state).branch, Branch::unloading);
-  EXPECT_EQ(answer(pair, 1, 1e-5, state).branch, Branch::apart);  // left in its dent
-  EXPECT_EQ(state.deepest, 1e-2);
-  answer(pair, 1, -1e-5, state);
-  EXPECT_EQ(state.deepest, 0);
 }
 
 }  // namespace granulaw::curve_test

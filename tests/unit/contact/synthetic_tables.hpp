@@ -62,6 +62,12 @@ struct SyntheticTables
     const double q = past(x, onset);
     return 1 / (1 + finite_sphere * std::sqrt(x)) - bend * q * q / (1 + q * q);
   }
+  /// k of UnloadingRadius at sqrt(u) = j/3: towards a uniform pressure's.
+  double unloading_radius(double x, std::size_t j) const
+  {
+    const double q = past(x, onset), v = static_cast<double>(j) / 3;
+    return 1 + (std::sqrt(2 - v * v) - 1) * q * q / (1 + q * q);
+  }
   CurveTable table() const
   {
     CurveTable t(onset, end);
@@ -72,6 +78,8 @@ struct SyntheticTables
     t.span = sampled(yielding, [&](double x) { return span(x); });
     t.hertz_share = sampled(yielding, [&](double x) { return hertz_share(x); });
     make_fall(t.kept, yielding), make_fall(t.span, yielding);
+    for (const double x : yielding)
+      t.unloading_radius.push_back({unloading_radius(x, 0), unloading_radius(x, 1), unloading_radius(x, 2)});
     return t;
   }
   Curve curve() const { return Curve(table()); }
