@@ -391,11 +391,11 @@ CompactResult Assembly::run()
   const double cpu = process_seconds() - cpu_s_;
   while (!drive_->finished()) {
     step();
-    if (options_.progress && steps_ % 16 == 0) options_.progress(drive_->progress());
     if (steps_ % 16 == 0 && !drive_->finished() && checkpoint.due()) {
       cpu_s_ = process_seconds() - cpu;
       checkpoint.save(visit);
     }
+    if (options_.progress && steps_ % 16 == 0) options_.progress(drive_->progress());
   }
   if (options_.progress) options_.progress(1.0);
   Vector3 momenta = -drive_->given();
