@@ -1,4 +1,4 @@
-"""What pip calls (PEP 517): CMake builds and installs the module, which becomes a wheel."""
+"""What pip calls (PEP 517): CMake builds the module, which becomes a wheel."""
 import base64
 import hashlib
 import os
@@ -20,12 +20,11 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     tag = f"{python}-{python}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
     info = f"granulaw-{version}.dist-info"
     with tempfile.TemporaryDirectory() as build:
-        made = pathlib.Path(build) / "made"
-        subprocess.run(["cmake", "-S", SOURCE, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DGRANULAW_PYTHON={sys.executable}", "-DGRANULAW_PYTHON_DIR=.",
+        subprocess.run(["cmake", "-S", SOURCE, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DGRANULAW_PYTHON={sys.executable}",
                         *(f"-DGRANULAW_{name}=OFF" for name in OFF)], check=True)
         subprocess.run(["cmake", "--build", build, "--parallel", str(os.cpu_count()), "--target", "granulaw_python"], check=True)
-        subprocess.run(["cmake", "--install", build, "--component", "python", "--prefix", made], check=True)
-        files = {f"granulaw/{file.name}": file.read_bytes() for file in sorted((made / "granulaw").iterdir())}
+        made = pathlib.Path(build) / "tools/python/granulaw"
+        files = {f"granulaw/{file.name}": file.read_bytes() for file in sorted(made.iterdir()) if file.is_file()}
     files[f"{info}/METADATA"] = f"Metadata-Version: 2.1\nName: granulaw\nVersion: {version}\nRequires-Dist: numpy\n".encode()
     files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: granulaw\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
     record = "".join(f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(content).digest()).decode().rstrip('=')},{len(content)}\n" for name, content in files.items())
