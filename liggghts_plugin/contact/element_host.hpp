@@ -198,9 +198,10 @@ class ElementHost : public ContactInquiry
             law.dissipated(r_eff, 0.0, delta_max, impact_overlap)};
   }
 
+  bool books_later() const override { return books_later_; }
   void settle(const ContactPlace& contact, double weight) const override
   {
-    if (books_later_ && State::largest(history_of(contact.history)) > 0.0)
+    if (State::largest(history_of(contact.history)) > 0.0)
       settle(pairs_.of(contact.itype, contact.jtype, contact.radius_i, contact.radius_j), contact.r_eff(), weight, contact.history);
   }
 

@@ -56,6 +56,8 @@ class ContactInquiry
  public:
   virtual ~ContactInquiry() = default;
   virtual ContactState state(const ContactPlace& contact) const = 0;
+  /// False: each step books what it does, and settle() has nothing to do.
+  virtual bool books_later() const = 0;
   /// Books in the contact statistics what a contact that is open did since it was last booked.
   virtual void settle(const ContactPlace& contact, double weight) const = 0;
   /// Takes a contact that is open out of the contact statistics' histogram: see
@@ -83,7 +85,8 @@ class CountedStyle
   /// To be called before the contact statistics are read.
   void settle_open() const
   {
-    each_open([&](const OpenContact& open) { contacts()->settle(open.place, open.weight); });
+    const ContactInquiry* const inquiry = contacts();
+    if (inquiry && inquiry->books_later()) each_open([&](const OpenContact& open) { inquiry->settle(open.place, open.weight); });
   }
   /// Takes the contacts that are open on this rank out of the contact statistics' histograms.
   void take_out_open(ContactStatistics& statistics) const
