@@ -4,10 +4,10 @@
 #include <string>
 
 #include "contact/normal.hpp"
+#include "law/size_choice.hpp"
 #include "liggghts_plugin/books/contact_statistics.hpp"
 #include "liggghts_plugin/deck/model_info.hpp"
 #include "liggghts_plugin/deck/particle_sizes.hpp"
-#include "law/size_choice.hpp"
 #include "liggghts_plugin/deck/types.hpp"
 
 // Parts of a normal model: NAME_physics.hpp, NAME_physics.cpp and a line in models.list.

@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "base/error.hpp"
-#include "law/size_choice.hpp"
 #include "law/radiation.hpp"
+#include "law/size_choice.hpp"
 
 namespace granulaw {
 

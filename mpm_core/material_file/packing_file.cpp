@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include "base/error.hpp"
 #include "base/number_in.hpp"
+#include "material_file/words.hpp"
 
 namespace granulaw {
 
@@ -46,13 +46,6 @@ class Reader
   }
 
  private:
-  static Words words_of(const std::string& line)
-  {
-    std::istringstream text(line);
-    Words words;
-    for (std::string word; text >> word;) words.push_back(word);
-    return words;
-  }
   std::string where() const { return fmt::format("{}:{}", path_, number_); }
 
   bool next_line()
@@ -117,7 +110,7 @@ class Reader
     const Words head = words_of(line_);
     for (std::size_t d = 0; d < 3; ++d) high_[d] = over_zero(head, 2 + d, "length of the box");
     while (next_line()) {
-      const Words words = words_of(line_.substr(0, line_.find('#')));
+      const Words words = words_before_comment(line_);
       if (words.empty()) continue;
       if (words.size() > 5)
         fail(where(), "a sphere is x y z radius [material]", fmt::format("{} words", words.size()), "4 or 5");
@@ -176,7 +169,7 @@ class Reader
   {
     bool box[3] = {};
     while (next_line()) {
-      const Words words = words_of(line_.substr(0, line_.find('#')));
+      const Words words = words_before_comment(line_);
       if (words.empty()) continue;
       for (int d = 0; d < 3; ++d) {
         const std::string low = std::string(1, "xyz"[d]) + "lo";

@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include "base/error.hpp"
 #include "base/number_in.hpp"
+#include "material_file/words.hpp"
 
 namespace granulaw {
 
@@ -53,9 +53,7 @@ std::vector<PressPlane> read_planes(const std::string& name, const std::string& 
     fail(option, "no such arrangement, and no such file", name, "pair, cube, die, bcc, fcc, or a file");
   std::string line;
   for (int n = 1; std::getline(in, line); ++n) {
-    std::istringstream text(line.substr(0, line.find('#')));
-    std::vector<std::string> words;
-    for (std::string word; text >> word;) words.push_back(word);
+    const std::vector<std::string> words = words_before_comment(line);
     if (!words.empty()) planes.push_back(plane_of(words, fmt::format("{}:{}", name, n)));
   }
   if (planes.empty()) fail(name, "the file names no plane", {}, "lines nx ny nz [distance speed friction]");

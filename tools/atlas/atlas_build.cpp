@@ -1,8 +1,6 @@
 #include "atlas_build.hpp"
 
-#include "characterise/run/sampling_plan.hpp"
-
-#include <fmt/format.h>
+#include "material_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +19,6 @@ namespace granulaw {
 namespace {
 
 constexpr double elastic_depth = 0.03;  // overlap/R of the presses that give the finite-sphere correction
-
-CharacterisedBody sphere_of(const MaterialRatios& m)
-{
-  return characterised_body_of(m.stiffness, m.poisson_ratio, m.hardening);
-}
 
 /// A slow press without yield, for the finite-sphere correction.
 RunJob elastic_job(double poisson_ratio, double depth, const RunSource& source)
@@ -63,13 +56,7 @@ std::vector<RunJob> atlas_jobs(const AtlasGrid& grid, const RunSource& source, c
     jobs.push_back(elastic_job(nu, elastic_depth, source));
     jobs.push_back(with_estimate(elastic_job(nu, ElasticSphere::depth, source)));
   }
-  for (const MaterialRatios& m : grid.materials()) {
-    for (RunJob& job : sampling_jobs(sphere_of(m), plan_for(m, known), source)) {
-      job.label = fmt::format("E*/Y {:g}, nu {:g}, H/E {:g}: {}", m.stiffness, m.poisson_ratio, m.hardening,
-                              job.label);
-      jobs.push_back(std::move(job));
-    }
-  }
+  for (const MaterialRatios& m : grid.materials()) add_jobs(jobs, m, plan_for(m, known), source);
   return jobs;
 }
 
@@ -88,7 +75,6 @@ class Assembly
   Atlas take() { return Atlas(grid_, std::move(nodes_), std::move(spheres_)); }
 
  private:
-  ContactRecords records_of(const MaterialRatios& m);
   LawShape fitted(const MaterialRatios& m, const ContactRecords& records) const;
   LawShape main_shape(double stiffness, double hardening) const;
   LawShape main_at(double onset, double stiffness, double hardening) const;
@@ -116,19 +102,9 @@ void Assembly::add_elastic_spheres()
   }
 }
 
-ContactRecords Assembly::records_of(const MaterialRatios& m)
-{
-  const SamplingPlan plan = plan_for(m, known_);
-  const auto first = outcomes_.begin() + static_cast<std::ptrdiff_t>(next_);
-  ContactRecords records;
-  add_to(records, sphere_of(m), plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
-  next_ += plan.runs();
-  return records;
-}
-
 void Assembly::add(const MaterialRatios& m)
 {
-  const ContactRecords records = records_of(m);
+  const ContactRecords records = records_of(m, plan_for(m, known_), outcomes_, next_);
   const LawShape* shape = shape_in(known_, m);
   nodes_.push_back({m, shape ? *shape : fitted(m, records)});
   if (shape && known_.impacts_anew)

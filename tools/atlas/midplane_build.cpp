@@ -1,8 +1,6 @@
 #include "midplane_build.hpp"
 
-#include "characterise/run/sampling_plan.hpp"
-
-#include <fmt/format.h>
+#include "material_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +20,6 @@ constexpr double press_depths[] = {0.03, 0.13, 0.5};
 constexpr int stops = 3;  // partial unloadings a press
 /// Overlap beyond which fewer cells and one grid will do, as in plan_sampling().
 constexpr double many_cells_end = 0.2;
-
-CharacterisedBody sphere_of(const MaterialRatios& m)
-{
-  return characterised_body_of(m.stiffness, m.poisson_ratio, m.hardening);
-}
 
 /// Presses to the three depths, as far as the material yields there.
 SamplingPlan plan_for(const MaterialRatios& m)
@@ -65,11 +58,7 @@ std::vector<RunJob> midplane_jobs(const MidplaneGrid& grid, const RunSource& sou
   std::vector<RunJob> jobs;
   for (const double nu : grid.poisson_ratios()) jobs.push_back(elastic_job(nu, source));
   for (const MaterialRatios& m : grid.materials())
-    for (RunJob& job : sampling_jobs(sphere_of(m), plan_for(m), source)) {
-      job.label = fmt::format("midplane, E*/Y {:g}, nu {:g}, H/E {:g}: {}", m.stiffness, m.poisson_ratio,
-                              m.hardening, job.label);
-      jobs.push_back(std::move(job));
-    }
+    add_jobs(jobs, m, plan_for(m), source, "midplane, ");
   return jobs;
 }
 
@@ -83,11 +72,7 @@ MidplaneShapes midplane_from(const Atlas& free, const MidplaneGrid& grid,
     elastic.push_back(fit_elastic(contact_record_of(outcomes[next++].result)));
   std::vector<MidplaneShapes::Node> nodes;
   for (const MaterialRatios& m : grid.materials()) {
-    const SamplingPlan plan = plan_for(m);
-    const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>(next);
-    ContactRecords records;
-    add_to(records, sphere_of(m), plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
-    next += plan.runs();
+    const ContactRecords records = records_of(m, plan_for(m), outcomes, next);
     const auto ratio = std::find(ratios.begin(), ratios.end(), m.poisson_ratio) - ratios.begin();
     const ElasticCorrection& correction = elastic[static_cast<std::size_t>(ratio)];
     const double onset = sphere_of(m).onset;

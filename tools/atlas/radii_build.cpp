@@ -1,20 +1,14 @@
 #include "radii_build.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 
 #include "characterise/fit/fit_curve.hpp"
+#include "material_runs.hpp"
 
 namespace granulaw {
 
 namespace {
-
-CharacterisedBody sphere_of(const MaterialRatios& m)
-{
-  return characterised_body_of(m.stiffness, m.poisson_ratio, m.hardening);
-}
 
 SamplingPlan plan_for(const MaterialRatios& m)
 {
@@ -37,11 +31,7 @@ const LatticeNode* softer(const std::vector<LatticeNode>& nodes, const MaterialR
 std::vector<RunJob> radius_jobs(const RadiusGrid& grid, const RunSource& source)
 {
   std::vector<RunJob> jobs;
-  for (const MaterialRatios& m : grid.materials())
-    for (RunJob& job : sampling_jobs(sphere_of(m), plan_for(m), source)) {
-      job.label = fmt::format("E*/Y {:g}, nu {:g}, H/E {:g}: {}", m.stiffness, m.poisson_ratio, m.hardening, job.label);
-      jobs.push_back(std::move(job));
-    }
+  for (const MaterialRatios& m : grid.materials()) add_jobs(jobs, m, plan_for(m), source);
   return jobs;
 }
 
@@ -50,11 +40,7 @@ Atlas with_radii(const Atlas& atlas, const RadiusGrid& grid, const std::vector<R
   std::vector<LatticeNode> known;
   std::size_t next = 0;
   for (const MaterialRatios& m : grid.materials()) {
-    const SamplingPlan plan = plan_for(m);
-    const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>(next);
-    ContactRecords records;
-    add_to(records, sphere_of(m), plan, {first, first + static_cast<std::ptrdiff_t>(plan.runs())});
-    next += plan.runs();
+    ContactRecords records = records_of(m, plan_for(m), outcomes, next);
     LawShape shape = LawShape::zero(onset_of(m), Atlas::depth);
     shape.elastic = atlas.shape(m).elastic;
     std::erase_if(records.slow, [&](const ContactRecord& r) { return r.depth <= shape.onset; });

@@ -13,14 +13,14 @@
 
 namespace granulaw {
 
-namespace {
-
 GridKind grid_of(const std::string& name)
 {
   for (const GridKind grid : {GridKind::automatic, GridKind::mapped, GridKind::rectilinear, GridKind::updated, GridKind::spatial})
     if (name == name_of(grid)) return grid;
   fail("--grid", "unknown grid", name, "auto, mapped, rectilinear, updated, rectilinear-3d");
 }
+
+namespace {
 
 bool same_file(const std::string& a, const std::filesystem::path& b) { return std::filesystem::weakly_canonical(a) == std::filesystem::weakly_canonical(b); }
 

@@ -8,6 +8,9 @@
 
 namespace granulaw {
 
+/// The kind of grid of this name. Throws Error.
+GridKind grid_of(const std::string& name);
+
 /// Request of `mpm impact` and `mpm press`: the bodies, the options of the run, and the files it writes.
 struct RunRequest
 {

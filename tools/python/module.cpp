@@ -107,9 +107,7 @@ struct RunChoice
     RunOptions o;
     o.resolution = resolution, o.shifted_grids = grids, o.threads = threads, o.estimate_error = estimate_error;
     o.progress = reported_to(progress);
-    for (const GridKind kind : {GridKind::mapped, GridKind::rectilinear, GridKind::updated, GridKind::spatial})
-      if (grid == name_of(kind)) o.grid = kind;
-    if (o.grid == GridKind::automatic && grid != "auto") fail("grid", "is no kind of grid", grid, "auto, mapped, rectilinear, updated, rectilinear-3d");
+    o.grid = grid_of(grid);
     return o;
   }
 };
@@ -133,6 +131,14 @@ py::object answer_of(const Particle& particle, const RunChoice& choice, const Ru
 }
 
 // ---------------------------------------------------------------- laws
+
+/// "a:b"; `what` leads the sentence of what is none.
+PairNames names_in(const char* what, const std::string& pair)
+{
+  PairNames names = split_pair(pair);
+  if (names.second.empty()) fail(what, "is no pair", pair, "'a:b' or 'a:wall'");
+  return names;
+}
 
 /// Two bodies by name and size, with their law.
 struct Pair
@@ -206,11 +212,7 @@ SharedLaw table(const py::object& materials, const std::vector<std::string>& pai
 {
   LawFileRequest request;
   request.materials = materials_of(materials);
-  for (const std::string& pair : pairs) {
-    const auto colon = pair.find(':');
-    if (colon == std::string::npos) fail("pairs", "is no pair", pair, "'a:b' or 'a:wall'");
-    request.pairs.emplace_back(pair.substr(0, colon), pair.substr(colon + 1));
-  }
+  for (const std::string& pair : pairs) request.pairs.push_back(names_in("pairs", pair));
   request.tolerance = tolerance, request.depth = depth, request.damage_number = damage_number;
   const py::gil_scoped_release release;
   const Atlas atlas = read_atlas(atlas_file);
@@ -264,9 +266,7 @@ class Contact
  public:
   Contact(const SharedLaw& law, granulaw_pair pair, const std::string& names)
   {
-    const auto colon = names.find(':');
-    if (colon == std::string::npos) fail("Contact", "is no pair", names, "'a:b' or 'a:wall'");
-    const std::string a = names.substr(0, colon), b = names.substr(colon + 1);
+    const auto [a, b] = names_in("Contact", names);
     pair.a = a.c_str(), pair.b = b.c_str();
     const std::unique_ptr<granulaw_law, ClosesLaw> handle(law_handle(law));
     granulaw_contact_law* made = nullptr;
