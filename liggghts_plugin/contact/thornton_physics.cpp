@@ -50,10 +50,8 @@ void ThorntonPhysics::prepare(LAMMPS_NS::LAMMPS*, PropertyRegistry& registry, co
 
 Thornton ThorntonPhysics::resolve(int i, int j, bool rigid, const std::string&) const
 {
-  const ThorntonPair law = rigid ? ThorntonPair{e_star_[i], factor_ * yield_stress_[i]}
-                                 : ThorntonPair{1.0 / (1.0 / e_star_[i] + 1.0 / e_star_[j]),
-                                                factor_ * std::min(yield_stress_[i], yield_stress_[j])};
-  return {law, stretch_};
+  if (rigid) return {e_star_[i], factor_ * yield_stress_[i], stretch_};
+  return {1.0 / (1.0 / e_star_[i] + 1.0 / e_star_[j]), factor_ * std::min(yield_stress_[i], yield_stress_[j]), stretch_};
 }
 
 PairInfo ThorntonPhysics::describe(const Contact& contact, const PairKey& key) const
@@ -63,7 +61,7 @@ PairInfo ThorntonPhysics::describe(const Contact& contact, const PairKey& key) c
                 .law = name,
                 .kind = "closed form",
                 .note = fmt::format("p_y = {:g} Y, error bound not stated", factor_)};
-  info.stiffness_ratio = factor_ * contact.law.e_star / contact.law.yield_pressure;
+  info.stiffness_ratio = factor_ * contact.e_star / contact.yield_pressure;
   info.overlap_limit = std::numeric_limits<double>::infinity();
   return info;
 }

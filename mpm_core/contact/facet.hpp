@@ -163,7 +163,6 @@ struct FacetTrial : Facet<Dent>
     if (!(last.stiffness > 0)) end_tilt();
     this->press(step.overlap, material.shear_stiffness);
     if (!this->touches()) return;
-    const Dent& dent = this->dent;
     this->pull = last.stretched(step.slide, this->stiffness);
     spring = pulls = norm(this->pull);
     if (const double most = material.friction * this->force; spring > most)
@@ -171,11 +170,11 @@ struct FacetTrial : Facet<Dent>
     shift = material.asymmetry * pressure_shift * this->stiffness / (material.shear_stiffness * this->force * this->curvature);
     lean = sum(this->tilt, this->pull, shift), leans = norm(lean);
     bears = bearing(leans);
-    const double area = dent.radius * dent.radius;
-    strength = material.strength(dent.steepness, area * this->part, last.sheared) * area *
+    const double area = this->dent.radius * this->dent.radius;
+    strength = material.strength(this->dent.steepness, area * this->part, last.sheared) * area *
                std::min(this->part, std::max(bears, least_bearing));
     const double q = pulls / strength;
-    yields = q > 1.0 + tolerance || this->force > (bears * ShearYield::share_at(q * q) + tolerance) * dent.force;
+    yields = q > 1.0 + tolerance || this->force > (bears * ShearYield::share_at(q * q) + tolerance) * this->dent.force;
   }
 
   /// Part of the area that bears at a |phi'|: half of a half disc. Linear, and left to become negative.

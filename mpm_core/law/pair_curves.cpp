@@ -71,17 +71,12 @@ std::vector<Drawn> drawn_laws(const Law& law, const ChosenPair& pair)
   return drawn;
 }
 
-ThorntonPair thornton_pair(const ChosenPair& pair)
-{
-  return {pair.law.mapping.e_star_pair(), customary_yield_pressure * pair.law.yielding->material.yield_stress};
-}
-
 /// m/s, at which Thornton's pair begins to yield: m* V_y^2/2 = 2/5 F_y d_y.
 double yield_velocity(const ChosenPair& pair)
 {
-  const ThorntonPair thornton = thornton_pair(pair);
-  const double overlap = thornton.yield_overlap(pair.r_eff);
-  return std::sqrt(0.8 * thornton.evaluate(pair.r_eff, overlap, overlap).force * overlap / pair.m_eff);
+  const Thornton thornton(pair.law.mapping.e_star_pair(), customary_yield_pressure * pair.law.yielding->material.yield_stress);
+  const double overlap = thornton.yield_overlap() * pair.r_eff;
+  return std::sqrt(0.8 * thornton.loading(pair.r_eff, overlap, 0.0) * overlap / pair.m_eff);
 }
 
 /// m/s, at which a contact that the law's loading curve stops comes to the end of its table, or where its

@@ -184,7 +184,7 @@ int run(int argc, char** argv)
     return 0;
   }
   if (word(1) == "thornton") {
-    const granulaw::ThorntonPair pair{number(2), number(3)};
+    const granulaw::Thornton pair(number(2), number(3));
     const double r_eff = number(4), m_eff = number(5), v = number(6);
     const double duration = 2.87 * std::pow(m_eff * m_eff / (pair.e_star * pair.e_star * r_eff * v), 0.2);
     print(granulaw::replay_collision([&](double d, double d_max) { return pair.evaluate(r_eff, d, d_max); },

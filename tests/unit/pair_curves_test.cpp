@@ -105,7 +105,7 @@ TEST(PairCurves, ThorntonYieldsWhereHisWorkIsTheKineticEnergy)
   const Law law = some_law();
   const ChosenPair pair = choose_pair(law, {"law.h5", "powder:glass", 1e-3, 2e-3});
   const DrawnLine line = line_of(pair_curves(law, pair, {}).restitution, "formula");
-  const ThorntonPair thornton{pair.law.mapping.e_star_pair(), 1.6 * 1e8};
+  const Thornton thornton(pair.law.mapping.e_star_pair(), 1.6 * 1e8);
   const double v = line.x.back();
   const double duration =
       2.87 * std::pow(pair.m_eff * pair.m_eff / (thornton.e_star * thornton.e_star * pair.r_eff * v), 0.2);

@@ -21,7 +21,7 @@ TEST(Thornton, ClosedFormMatchesThePublishedNumbers)
 
 TEST(Thornton, NoNumberInNoForceOut)
 {
-  const ThorntonPair pair{10e9, 1.6e8};
+  const Thornton pair(10e9, 1.6e8);
   const double none = std::numeric_limits<double>::quiet_NaN();
   for (const double delta : {1e-8, 1e-4})  // below yield and beyond
     for (const auto& [now, largest] : {std::pair(none, delta), std::pair(none, 0.0), std::pair(delta, none)})
@@ -31,7 +31,7 @@ TEST(Thornton, NoNumberInNoForceOut)
 TEST(Thornton, ReplayGivesTheClosedForm)
 {
   const double e_star = 10e9, y = 1e8, rho = 1500, r = 0.002;
-  const ThorntonPair pair{e_star, 1.6 * y};
+  const Thornton pair(e_star, 1.6 * y);
   const double mass = 4.0 / 3.0 * M_PI * rho * r * r * r;
   for (const double ratio : {0.5, 1.5, 2.0, 5.0, 20.0, 100.0, 1000.0}) {
     const double v = ratio * yield_velocity(e_star, y, rho);
@@ -46,8 +46,8 @@ TEST(Thornton, ReplayGivesTheClosedForm)
 
 TEST(Thornton, ForceAndRadiusAreContinuousAtYieldAndAtTheReversal)
 {
-  const ThorntonPair pair{10e9, 1.6e8};
-  const double r = 0.002, d_y = pair.yield_overlap(r);
+  const Thornton pair(10e9, 1.6e8);
+  const double r = 0.002, d_y = pair.yield_overlap() * r;
   const auto below = pair.evaluate(r, d_y * (1 - 1e-12), 0), above = pair.evaluate(r, d_y * (1 + 1e-12), 0);
   EXPECT_NEAR(below.force, above.force, 1e-10 * above.force);
   EXPECT_NEAR(below.stiffness, above.stiffness, 1e-10 * above.stiffness);
@@ -59,8 +59,8 @@ TEST(Thornton, ForceAndRadiusAreContinuousAtYieldAndAtTheReversal)
 
 TEST(Thornton, WorkAndStiffnessAreThoseOfTheForce)
 {
-  const ThorntonPair pair{10e9, 1.6e8};
-  const double r = 0.002, d_y = pair.yield_overlap(r);
+  const Thornton pair(10e9, 1.6e8);
+  const double r = 0.002, d_y = pair.yield_overlap() * r;
   for (const double d_m : {0.5 * d_y, 3 * d_y, 40 * d_y}) {
     const int steps = 20000;
     double loading = 0, stored = 0;
@@ -69,17 +69,54 @@ TEST(Thornton, WorkAndStiffnessAreThoseOfTheForce)
       loading += pair.evaluate(r, d, d).force * d_m / steps;
       stored += pair.evaluate(r, d, d_m).force * d_m / steps;
     }
-    EXPECT_NEAR(pair.stored_energy(r, d_m, d_m) / stored, 1.0, 1e-5);
-    EXPECT_NEAR(pair.dissipated(r, d_m), loading - stored, 1e-5 * loading);
+    EXPECT_NEAR(pair.stored_energy(r, d_m, d_m, 0) / stored, 1.0, 1e-5);
+    EXPECT_NEAR(pair.dissipated(r, 0, d_m, 0), loading - stored, 1e-5 * loading);
     // half-way out the contact holds what it gives back from there
     double rest = 0;
     const double half = 0.9 * d_m;
     for (int k = 0; k < steps; ++k)
       rest += pair.evaluate(r, (k + 0.5) / steps * half, d_m).force * half / steps;
-    EXPECT_NEAR(pair.stored_energy(r, half, d_m), rest, 1e-5 * stored);
+    EXPECT_NEAR(pair.stored_energy(r, half, d_m, 0), rest, 1e-5 * stored);
     const double top = pair.evaluate(r, d_m, d_m).force,
                  below = pair.evaluate(r, d_m * (1 - 1e-6), d_m).force;
-    EXPECT_NEAR(pair.unloading_stiffness(r, d_m) / ((top - below) / (1e-6 * d_m)), 1.0, 1e-4);
+    EXPECT_NEAR(pair.stiffness(r, d_m, 0) / ((top - below) / (1e-6 * d_m)), 1.0, 1e-4);
+  }
+}
+
+TEST(Thornton, UnloadsAsHertzOfTheFlattenedRadius)
+{
+  const double e_star = 10e9, p_y = 1.6e8, r = 0.002;
+  const Thornton pair(e_star, p_y);
+  const double d_y = std::pow(M_PI * p_y / (2 * e_star), 2) * r, f_y = 4.0 / 3.0 * e_star * std::sqrt(r * d_y) * d_y;
+  for (const double d_m : {1.5 * d_y, 40 * d_y}) {
+    const double f_m = f_y + M_PI * p_y * r * (d_m - d_y);  // the formulas as he writes them
+    const double r_p = 4 * e_star / (3 * f_m) * std::pow((2 * f_m + f_y) / (2 * M_PI * p_y), 1.5);
+    const double d_p = d_m - std::pow(3 * f_m / (4 * e_star * std::sqrt(r_p)), 2.0 / 3.0);
+    for (const double part : {1.0, 0.5, 0.01}) {
+      const double d = d_p + part * (d_m - d_p);
+      // rounding of d - d_p, of which the force goes as the power 1.5, at a hundredth of the way
+      EXPECT_NEAR(pair.evaluate(r, d, d_m).force, 4.0 / 3.0 * e_star * std::sqrt(r_p) * std::pow(d - d_p, 1.5), 1e-11 * f_m);
+      EXPECT_NEAR(pair.evaluate(r, d, d_m).contact_radius, std::sqrt(r_p * (d - d_p)), 1e-11 * r);
+    }
+    EXPECT_EQ(pair.evaluate(r, 0.99 * d_p, d_m).force, 0);
+  }
+}
+
+TEST(Thornton, StretchedDoesTheSameWorkOverALongerWay)
+{
+  const double r = 0.002, stretch = 3;
+  const Thornton real(1e8, 1.6e6), stretched(1e8, 1.6e6, stretch);
+  const double d_m = 40 * real.yield_overlap() * r;
+  const auto near = [](double a, double b) { EXPECT_NEAR(a, b, 1e-12 * std::abs(b)); };  // rounding of some ten operations
+  near(stretched.yield_overlap(), stretch * real.yield_overlap());
+  near(stretched.dissipated(r, 0, stretch * d_m, 0), real.dissipated(r, 0, d_m, 0));
+  near(stretched.stiffness(r, stretch * d_m, 0), real.stiffness(r, d_m, 0) / (stretch * stretch));
+  for (const double d : {d_m, 0.95 * d_m}) {
+    const Answer one = real.evaluate(r, d, d_m), other = stretched.evaluate(r, stretch * d, stretch * d_m);
+    near(other.force, one.force / stretch);
+    near(other.stiffness, one.stiffness / (stretch * stretch));
+    near(other.contact_radius, one.contact_radius);
+    near(stretched.stored_energy(r, stretch * d, stretch * d_m, 0), real.stored_energy(r, d, d_m, 0));
   }
 }
 

@@ -90,9 +90,9 @@ class LawsAtHand
 };
 
 /// Thornton's closed form, as model thornton has it.
-ThorntonPair thornton_of(const Meeting& m, double yield_pressure) { return {m.mapping.e_star_pair(), yield_pressure * m.yields.yield_stress}; }
+Thornton thornton_of(const Meeting& m, double yield_pressure) { return {m.mapping.e_star_pair(), yield_pressure * m.yields.yield_stress}; }
 
-std::optional<Collision> collide_by_thornton(const ThorntonPair& law, const Meeting& m, double r_eff, double m_eff, double speed)
+std::optional<Collision> collide_by_thornton(const Thornton& law, const Meeting& m, double r_eff, double m_eff, double speed)
 {
   const double duration = hertz_time(law.e_star, r_eff, m_eff, speed);
   const Replay replay = replay_collision([&](double delta, double delta_max) { return law.evaluate(r_eff, delta, delta_max); }, m_eff, speed, duration, 2000);
@@ -107,7 +107,7 @@ void set_contact_law(PlanOptions& into, const Scene& scene, std::optional<Law> d
     const double factor = scene.yield_pressure;
     into.collide = [factor](const Meeting& m, double r_eff, double m_eff, double speed) { return collide_by_thornton(thornton_of(m, factor), m, r_eff, m_eff, speed); };
     into.stiffness = [factor](const Meeting& m, double, double, double r_eff, double overlap) {
-      return std::optional(planned_stiffness(thornton_of(m, factor), r_eff, overlap));
+      return std::optional(thornton_of(m, factor).stiffness(r_eff, overlap, 0.0));
     };
     return;
   }

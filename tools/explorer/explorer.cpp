@@ -67,7 +67,7 @@ const Law& law_of(const Request& r)
 /// A closed formula of the same pair: Thornton's, or Hertz's where nothing yields.
 struct Formula
 {
-  ThorntonPair pair;
+  Thornton pair;
   double r_eff, m_eff;
 
   Replay collision(double speed, int steps) const

@@ -66,7 +66,7 @@ TEST(ContactElement, BooksWhatACollisionLoses)
     EXPECT_NEAR(end.ledger[Mechanism::plastic] + end.ledger[Mechanism::waves], lost,
                 Curve::least_loss * 0.5 * mass * speed * speed);
   }
-  const ContactElement<Thornton> thornton{Thornton({1e9, 1.6e7}, 1.0)};
+  const ContactElement<Thornton> thornton{Thornton(1e9, 1.6e7)};
   const Collision end = collide(thornton, speed, 0.0, 2e-9);
   const double lost = 0.5 * mass * (speed * speed - end.speed * end.speed);
   EXPECT_NEAR(end.ledger[Mechanism::plastic], lost, 1e-4 * lost);  // velocity Verlet, some thousand steps
