@@ -57,6 +57,26 @@ class TestFirstFlow:
         steps.check(MPM, [folder / "in.first"], stats, log)
 
 
+class TestParaview:
+    def test_lines_of_the_page(self, folder):
+        """The page's lines in the deck of the first flow, and its script: a dent for each contact, with what its particles lost in it."""
+        lines, script = re.findall(r"```\w+\n(.*?)```", (ROOT / "docs/guide/paraview.md").read_text(), re.DOTALL)
+        (folder / "materials.toml").write_text(block("[material.wax]"))
+        programs.run(MPM, "table", "materials.toml", "-o", "wax.h5", cwd=folder)
+        deck = block("atom_style").replace("stats stats.json", "energy on").replace("f_granulaw\n", "ke\n")
+        (folder / "in.view").write_text(deck[:deck.rindex("run ")].replace("5000 frame", "100000 frame") + lines + "run 35000\n")
+        programs.run(LAUNCHER, "-in", "in.view", cwd=folder)
+        programs.run("/usr/bin/python3", "-c", script, cwd=folder)
+        contacts = (folder / "contacts_35000.txt").read_text().splitlines()[9:]
+        view = (folder / "dents_35000.vtk").read_text()
+        assert len(contacts) > 10 and f"CELL_DATA {len(contacts)}\n" in view
+        lost = [float(x) for x in view.split("dissipated_J double\nLOOKUP_TABLE default\n")[1].split()]
+        assert lost == [float(row.split()[-1]) for row in contacts] and max(lost) > 0
+        assert (folder / "dents_0.vtk").exists()  # no contact yet
+        assert b"f_granulaw[2]" in (folder / "particles_35000.vtk").read_bytes()
+        assert b"force" in (folder / "forces_35000.vtk").read_bytes()
+
+
 class TestReadme:
     def test_commands(self, folder):
         """The commands of the README, in turn: the collision of the solver and of the law agree within the law's error bound."""
