@@ -93,6 +93,8 @@ int guarded(int code, granulaw_why* why, Work&& work)
 template <class Struct>
 bool is_known(const Struct* given, granulaw_why* why, const char* name)
 {
+  if (given->size == sizeof(Struct)) [[likely]]
+    return true;
   const auto* bytes = reinterpret_cast<const unsigned char*>(given);
   if (given->size < sizeof(Struct))
     return failed(0, why, std::string(name) + ": its member `size` is not set to sizeof(" + name + ")"), false;
@@ -197,11 +199,6 @@ void make_laws(granulaw_contact_law& contact, const granulaw_pair& pair)
     make_laws<Spring>(contact, pair);
 }
 
-bool is_body(double radius)
-{
-  return radius > 0;  // infinity: a wall
-}
-
 /// The law for bodies of these radii, one of which may be infinite.
 template <class Laws>
 const auto& sized(const granulaw_contact_law& contact, const Laws& laws, double radius_a, double radius_b)
@@ -216,24 +213,26 @@ double r_eff_of(double radius_a, double radius_b)
 }
 
 /// False of radii and m* that no two bodies have.
+bool are_bodies(double radius_a, double radius_b, double r_eff, double m_eff)
+{
+  return (radius_a > 0) & (radius_b > 0) & std::isfinite(r_eff) & (m_eff > 0) & std::isfinite(m_eff);
+}
 bool are_bodies(double radius_a, double radius_b, double m_eff)
 {
-  return is_body(radius_a) && is_body(radius_b) && std::isfinite(r_eff_of(radius_a, radius_b)) && m_eff > 0 &&
-         std::isfinite(m_eff);
+  return are_bodies(radius_a, radius_b, r_eff_of(radius_a, radius_b), m_eff);
 }
 
-bool has_numbers(const granulaw_motion& m)
+/// Called for each contact and step: one branch.
+bool has_numbers(const granulaw_motion& m, double r_eff)
 {
-  double sum = m.overlap + m.approach + m.dt;
-  for (const double value : m.normal) sum += value;
-  for (const double value : m.slide) sum += value;
-  for (const double value : m.rolling) sum += value;
-  return std::isfinite(sum) && are_bodies(m.radius_a, m.radius_b, m.m_eff);
+  const double normal = (m.normal[0] + m.normal[1]) + m.normal[2], slide = (m.slide[0] + m.slide[1]) + m.slide[2],
+               rolling = (m.rolling[0] + m.rolling[1]) + m.rolling[2], rest = (m.overlap + m.approach) + m.dt;
+  return std::isfinite((normal + slide) + (rolling + rest)) & are_bodies(m.radius_a, m.radius_b, r_eff, m.m_eff);
 }
 
-ContactMotion motion_of(const granulaw_motion& m)
+ContactMotion motion_of(const granulaw_motion& m, double r_eff)
 {
-  return {{r_eff_of(m.radius_a, m.radius_b), m.overlap, m.approach, !m.asked_again},
+  return {{r_eff, m.overlap, m.approach, !m.asked_again},
           m.m_eff,
           m.dt,
           {m.normal[0], m.normal[1], m.normal[2]},
@@ -279,9 +278,11 @@ std::size_t advance(const granulaw_contact_law& contact, const Laws& laws, std::
       now = {answers->size, 0.0, {}, {}, 0u};
       continue;
     }
-    if (!has_numbers(m)) return k;
+    const double r_eff = r_eff_of(m.radius_a, m.radius_b);
+    if (!has_numbers(m, r_eff)) [[unlikely]]
+      return k;
     const auto& one = sized(contact, laws, m.radius_a, m.radius_b);
-    const ContactMotion moves = motion_of(m);
+    const ContactMotion moves = motion_of(m, r_eff);
     const bool begins = Element::State::largest(history) == 0.0;
     Forces caller;
     caller.waves = one.element.normal.radiation > 0;
@@ -305,10 +306,11 @@ std::size_t states(const granulaw_contact_law& contact, const Laws& laws, std::s
     granulaw_state& now = at(states, k);
     now = {states->size, 0.0, 0.0, 0.0, State::largest(history), GRANULAW_APART};
     if (m.overlap <= 0) continue;
-    if (!has_numbers(m)) return k;
+    const double r_eff = r_eff_of(m.radius_a, m.radius_b);
+    if (!has_numbers(m, r_eff)) return k;
     const auto& element = sized(contact, laws, m.radius_a, m.radius_b).element;
     const Tabulated& normal = element.normal;
-    const ContactMotion moves = motion_of(m);
+    const ContactMotion moves = motion_of(m, r_eff);
     double own[State::values];
     std::copy_n(history, State::values, own);
     const double largest = State::largest(history), impact_overlap = State::impact_overlap(history);
@@ -520,10 +522,11 @@ int granulaw_advance(const granulaw_contact_law* contact, size_t n, const granul
   if (n == 0) return GRANULAW_OK;
   if (!contact || !motion || !history || !answers) return GRANULAW_NO_POINTER;
   if (!is_known(motion, nullptr, "") || answers->size < sizeof(granulaw_answer)) return GRANULAW_NO_SIZE;
-  Ledger taken;
+  Ledger none;
+  static_assert(sizeof(Ledger) == GRANULAW_MECHANISMS * sizeof(double) && std::is_standard_layout_v<Ledger>);
+  Ledger& taken = ledger ? *reinterpret_cast<Ledger*>(ledger) : none;  // no copy: its sum would wait in memory for the parts
   const std::size_t advanced = std::visit(
       [&](const auto& laws) { return advance(*contact, laws, n, motion, history, answers, taken); }, contact->laws);
-  for (std::size_t k = 0; ledger && k < taken.taken.size(); ++k) ledger[k] += taken.taken[k];
   if (done) *done = advanced;
   return advanced == n ? GRANULAW_OK : GRANULAW_NO_NUMBER;
 }
