@@ -26,7 +26,7 @@ LAMMPS_NS::Fix* fix(LAMMPS* lmp, int narg, char** arg)
   return new Style(lmp, narg, arg);
 }
 
-/// One of LAMMPS's plugins (lammpsplugin.h, which Debian leaves out).
+/// A plugin as LAMMPS registers it: the struct of its plugin header, which Debian leaves out.
 struct Plugin
 {
   const char *version, *style, *name, *info, *author;

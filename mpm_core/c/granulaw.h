@@ -170,7 +170,7 @@ typedef struct {
   double normal;    /* along `normal`, 0 or more */
   double shear[3];
   double couple[3]; /* on a, beside the torque of `shear`; b gets the opposite */
-  unsigned beyond;  /* OVERLAP and SIZE in each step, FAST and SLOW in a contact's first */
+  unsigned beyond;  /* OVERLAP in each step, the others in a contact's first */
 } granulaw_answer;
 
 /* Places of the ledger: energy that contacts took and do not give back. A contact that two ranks compute is booked

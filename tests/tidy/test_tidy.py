@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-PRODUCT = ("mpm_core/", "liggghts_plugin/", "tools/")
+PRODUCT = ("mpm_core/", "liggghts_plugin/", "engines/", "tools/")
 
 
 def changed(source, commit):
