@@ -20,7 +20,8 @@ def changed(source, commit):
     done = subprocess.run(["git", "-C", str(source), "diff", "--name-only", "--diff-filter=d", commit], capture_output=True, text=True)
     if done.returncode:
         return None
-    return sorted(f for f in done.stdout.split() if f.startswith(PRODUCT) and f.endswith(".cpp"))
+    # sub_models: sources that are compiled in another tree
+    return sorted(f for f in done.stdout.split() if f.startswith(PRODUCT) and f.endswith(".cpp") and "/sub_models/" not in f)
 
 
 def write_commands(build, folder):
