@@ -1,0 +1,167 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/cell_faces.hpp"
+#include "contact/plastic_body.hpp"
+#include "contact/vector.hpp"
+
+// The law of a particle that is pressed from all sides: docs/theory/confined.md. Units of PlasticBody: lengths over the
+// particle's radius R, forces over Y R^2, energies over Y R^3. Compression is positive, normals point out of the particle.
+namespace granulaw {
+
+/// One contact as its particle has it: a plane n.x <= 1 - overlap about the particle's centre. All zero in a new one.
+/// Two like bodies share their overlap: each has half of its way, and the contact's force is the mean of both sides'.
+struct SideState
+{
+  std::int64_t key = 0;   ///< of the neighbour, the caller's; sides are kept in the order of their keys
+  double force = 0;       ///< of the spring, >= 0, without the pressure of a closed cell
+  double stiffness = 0;   ///< of the spring; only grows
+  double gap = 0;         ///< >= 0: way to where it touches again, where the force is 0
+  double overlap = 0;     ///< 1 less the plane's distance from the centre; negative where only bulging reaches the plane
+  double deepest = 0;     ///< largest overlap; of a particle that is not confined
+  // of the last refresh: every cached number follows from these
+  double cached_overlap = 0;
+  Vector cached_normal{};
+  double cap = 0, cap_slope = 0;  ///< largest force that the face bears, and its slope by the overlap
+  bool touched = false;           ///< it has had a force
+  // the caller's: no law reads them
+  double distance = 0;         ///< to the neighbour's centre or the wall, in the caller's unit
+  Vector shear{};              ///< tangential force on this particle, of this half
+  double shear_stiffness = 0;  ///< only grows
+};
+
+/// What a particle has beside its sides. As made: a sphere that nothing presses.
+struct ConfinedState
+{
+  double grown_radius = 1;    ///< R_a, of the ball that the planes cut; bulging reaches so far
+  double mean_pressure = 0;   ///< p, averaged over a way of .001 R; for R_a
+  double cell_volume = 0;     ///< of a closed cell, carried
+  double share = 0;           ///< r, 0: every contact is by itself, the pair law; 1: confined. Never falls
+  double dissipated = 0;      ///< plastic, of all sides
+  double plastic_strain = 0;  ///< mean
+  double flow_stress = 1;     ///< over Y, of the last refresh
+  std::array<double, 6> strain{};  ///< mean elastic: xx yy zz yz xz xy, compression positive
+  bool closed = false;        ///< no free surface is left
+  bool known = false;         ///< it was refreshed at least once
+};
+
+/// Every number of a state, for a record: visit(double&) in a fixed order. A key is below 2^53.
+template <class Visit>
+void visit_numbers(SideState& s, Visit&& visit)
+{
+  double key = static_cast<double>(s.key), touched = s.touched;
+  visit(key);
+  for (double* x : {&s.force, &s.stiffness, &s.gap, &s.overlap, &s.deepest, &s.cached_overlap, &s.cap, &s.cap_slope, &s.distance, &s.shear_stiffness}) visit(*x);
+  for (Vector* v : {&s.cached_normal, &s.shear})
+    for (double& x : *v) visit(x);
+  visit(touched);
+  s.key = static_cast<std::int64_t>(key), s.touched = touched != 0.0;
+}
+template <class Visit>
+void visit_numbers(ConfinedState& c, Visit&& visit)
+{
+  double closed = c.closed, known = c.known;
+  for (double* x : {&c.grown_radius, &c.mean_pressure, &c.cell_volume, &c.share, &c.dissipated, &c.plastic_strain, &c.flow_stress}) visit(*x);
+  for (double& x : c.strain) visit(x);
+  visit(closed), visit(known);
+  c.closed = closed != 0.0, c.known = known != 0.0;
+}
+inline constexpr int side_numbers = 18, confined_numbers = 15;
+
+/// A side in a step. `advance`: by which its overlap grows.
+struct SideStep
+{
+  Vector normal;
+  double advance;
+};
+/// `force`: >= 0; `stiffness`: > 0, elastic; `flow`: plastic part of the advance, >= 0; `area`: of the face, over R^2.
+struct SideAnswer
+{
+  double force = 0, stiffness = 0, flow = 0, area = 0;
+};
+
+/// Room that a step needs; one for each thread.
+struct ConfinedRoom
+{
+  CellFaces faces;
+  std::vector<Vector> normals;
+  std::vector<double> heights, areas, trial, load, mode, plastic;
+  struct Active
+  {
+    int side;
+    double excess, own, common, rate;
+  };
+  std::vector<Active> active;
+  std::vector<SideAnswer> answers;
+};
+
+/// One particle: its state, its sides in the order of their keys, and caches that follow from both.
+class ConfinedParticle
+{
+ public:
+  /// Mean pressure over Y at which a particle of two loaded sides or more begins to be confined, and at which it is.
+  static constexpr double begins_at = 0.15, complete_at = 0.3;
+
+  ConfinedState state;
+  std::vector<SideState> sides;
+
+  bool confined() const { return state.share > 0; }
+  /// Position of the side of this key whose normal of the last refresh is within 70 degrees of `normal`; -1: there is none. Two
+  /// images of one neighbour have one key.
+  int find(std::int64_t key, const Vector& normal) const;
+  /// Position of a new side. `overlap`: before the next step.
+  int insert(std::int64_t key, const Vector& normal, double overlap);
+  /// Its elastic energy is booked as dissipated.
+  void remove(int i);
+
+  /// One step of all sides: `steps` in their order. Answers are in their order, too, and stay until the room's next use. A
+  /// particle that is not confined answers by the pair law, to the bit; from begins_at on it is confined.
+  std::span<const SideAnswer> advance(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room);
+  /// The answers of the state as it is: nothing advances.
+  std::span<const SideAnswer> answers(const PlasticBody& body, ConfinedRoom& room) const;
+
+  /// Takes a side from a pair law that the caller evaluated: its force, the energy that it gives back, its overlap. Both stay.
+  void take_over(int i, double force, double stored, double overlap);
+  /// Ends the pair law: call after take_over() of all sides.
+  void confine(const PlasticBody& body, ConfinedRoom& room);
+
+  /// Caches of the last refresh, after a record was read.
+  void restore(const PlasticBody& body, ConfinedRoom& room);
+
+  double stored(const PlasticBody& body) const;  ///< elastic: springs, mean strain, closed cell
+  double pressure() const { return pressure_; }  ///< p, mean of sum F d/(3 V), of the last step
+  double free_share() const { return free_share_; }
+
+ private:
+  struct Cache  // of a side, of the last refresh
+  {
+    double area, filter, lever;  // lever: d/V
+    std::array<double, 6> dyad;  // n n
+  };
+  std::vector<Cache> cache_;
+  std::vector<double> coupling_;  // of the modes, lower triangle by rows
+  std::array<double, 21> elastic_{};  // Cholesky factor of the mean strain's stiffness, its diagonal inverted
+  double pressure_ = 0, free_share_ = 1, volume_ = 0, bulk_ = 0;
+  bool fresh_ = false;
+};
+
+/// A side's tangential force after a step, on the particle, and what the step dissipates.
+struct ShearAnswer
+{
+  Vector force{};
+  double flow = 0, friction = 0;
+};
+/// Tangential spring of a side that flows with its normal force: T <- T/(1 + 6 k_t v/F), v the plastic part of the advance, cut at
+/// friction times share F. It keeps T in `side.shear`. `slide`: of the particle's surface against the neighbour's, over R; `share`:
+/// of the contact's force that is this side's, 1/2; 1: a wall.
+ShearAnswer advance_shear(SideState& side, const SideAnswer& now, const Vector& normal, const Vector& slide, double friction, double share);
+
+/// Way by which the plane between two bodies moves into A (and out of B), so that their forces become equal. Forces and elastic
+/// stiffnesses in one unit, stiffnesses > 0. It only loses energy. Every 20 to 100 steps.
+inline double plane_way(double force_a, double stiffness_a, double force_b, double stiffness_b) { return (force_b - force_a) / (stiffness_a + stiffness_b); }
+
+}  // namespace granulaw
