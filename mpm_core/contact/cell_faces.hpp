@@ -40,8 +40,8 @@ class CellFaces
   };
   double azimuth(std::size_t i, std::size_t j);
   bool cut_face(std::size_t j, std::span<const double> heights, double radius);
-  double covered(double radius);
-  double solid_angle_and_area(double height, double radius, double& area);
+  double covered();
+  double solid_angle_and_area(double height, double& area);
 
   std::size_t size_ = 0;
   std::vector<Other> of_;

@@ -46,7 +46,6 @@ struct ConfinedState
   double flow_stress = 1;     ///< over Y, of the last refresh
   std::array<double, 6> strain{};  ///< mean elastic: xx yy zz yz xz xy, compression positive
   bool closed = false;        ///< no free surface is left
-  bool known = false;         ///< it was refreshed at least once
 };
 
 /// Every number of a state, for a record: visit(double&) in a fixed order. A key is below 2^53.
@@ -64,13 +63,13 @@ void visit_numbers(SideState& s, Visit&& visit)
 template <class Visit>
 void visit_numbers(ConfinedState& c, Visit&& visit)
 {
-  double closed = c.closed, known = c.known;
+  double closed = c.closed;
   for (double* x : {&c.grown_radius, &c.mean_pressure, &c.cell_volume, &c.share, &c.dissipated, &c.plastic_strain, &c.flow_stress}) visit(*x);
   for (double& x : c.strain) visit(x);
-  visit(closed), visit(known);
-  c.closed = closed != 0.0, c.known = known != 0.0;
+  visit(closed);
+  c.closed = closed != 0.0;
 }
-inline constexpr int side_numbers = 18, confined_numbers = 15;
+inline constexpr int side_numbers = 18, confined_numbers = 14;
 
 /// A side in a step. `advance`: by which its overlap grows.
 struct SideStep
@@ -84,19 +83,31 @@ struct SideAnswer
   double force = 0, stiffness = 0, flow = 0, area = 0;
 };
 
+/// A side as a pair law has it: its half of the energies.
+struct SideOfPair
+{
+  double force;    ///< >= 0
+  double stored;   ///< that it gives back; over 0 where there is a force
+  double lost;     ///< plastic, so far
+  double overlap;
+  double gap = 0;  ///< >= 0: way to where it touches again, where the force is 0
+};
+
 /// Room that a step needs; one for each thread.
 struct ConfinedRoom
 {
   CellFaces faces;
   std::vector<Vector> normals;
-  std::vector<double> heights, areas, trial, load, mode, plastic;
-  struct Active
+  std::vector<double> heights, areas, trial, gaps, mode, plastic;
+  struct Surface  // a yield surface that the trial forces are outside of
   {
-    int side;
-    double excess, own, common, rate;
+    std::size_t side;
+    double excess, own, common, rate;  // g, dg/dF of the own part, dg/dQ^2, of the multiplier
   };
-  std::vector<Active> active;
+  std::vector<Surface> outside;
   std::vector<SideAnswer> answers;
+  double scaled = 0;  // by which forces far outside were scaled, over what is left
+  std::vector<SideOfPair> of_pair;
 };
 
 /// One particle: its state, its sides in the order of their keys, and caches that follow from both.
@@ -122,12 +133,10 @@ class ConfinedParticle
   /// particle that is not confined answers by the pair law, to the bit; from begins_at on it is confined.
   std::span<const SideAnswer> advance(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room);
   /// The answers of the state as it is: nothing advances.
-  std::span<const SideAnswer> answers(const PlasticBody& body, ConfinedRoom& room) const;
+  std::span<const SideAnswer> answers(ConfinedRoom& room) const;
 
-  /// Takes a side from a pair law that the caller evaluated: its force, the energy that it gives back, its overlap. Both stay.
-  void take_over(int i, double force, double stored, double overlap);
-  /// Ends the pair law: call after take_over() of all sides.
-  void confine(const PlasticBody& body, ConfinedRoom& room);
+  /// Ends the pair law: takes every side over, in order. Forces and the sum of the stored energies stay as they are.
+  void confine(const PlasticBody& body, std::span<const SideOfPair> sides);
 
   /// Caches of the last refresh, after a record was read.
   void restore(const PlasticBody& body, ConfinedRoom& room);
@@ -140,10 +149,22 @@ class ConfinedParticle
   struct Cache  // of a side, of the last refresh
   {
     double area, filter, lever;  // lever: d/V
-    std::array<double, 6> dyad;  // n n
+    std::array<double, 6> dyad;  // n n, at a height d: d n n
   };
+  std::span<const SideAnswer> advance_apart(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room);
+  bool move(std::span<const SideStep> steps);
+  void refresh(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room);
+  void grow(const PlasticBody& body, ConfinedRoom& room);
+  void cut(const PlasticBody& body, bool grows, ConfinedRoom& room);
+  void couple(const PlasticBody& body);
+  void press_closed_cell(const PlasticBody& body, bool refreshed);
+  void predict(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room);
+  double modes_of(ConfinedRoom& room);
+  void flow(double mode, ConfinedRoom& room);
+  void dissipate(const PlasticBody& body, double energy);
+
   std::vector<Cache> cache_;
-  std::vector<double> coupling_;  // of the modes, lower triangle by rows
+  std::vector<double> coupling_;      // of the modes, lower triangle by rows
   std::array<double, 21> elastic_{};  // Cholesky factor of the mean strain's stiffness, its diagonal inverted
   double pressure_ = 0, free_share_ = 1, volume_ = 0, bulk_ = 0;
   bool fresh_ = false;

@@ -22,15 +22,21 @@ class PlasticBody
   /// Flow stress at an equivalent plastic strain, over Y: 1 without hardening.
   double flow_stress(double strain) const { return flow_.hardens() ? flow_.at(strain) / flow_.yield : 1.0; }
   bool hardens() const { return flow_.hardens(); }
+  /// 4/3 E*: Hertz's force at an overlap of R.
+  double unit() const { return unit_; }
 
   /// Force of one contact at an overlap, of first loading.
   double force(double overlap) const { return unit_ * curve_->force(overlap); }
-  /// Force and the work that its complete unloading gives back, of a contact whose largest overlap is `deepest`.
+  /// A contact whose largest overlap is `deepest`.
   struct PairAnswer
   {
-    double force, stiffness, stored;
+    double force = 0, stiffness = 0, stored = 0, lost = 0;
+    double residual = 0;  ///< overlap at which the force ends
+    double area = 0;
   };
   PairAnswer pair(double overlap, double deepest) const;
+  /// What such a contact has dissipated.
+  double lost(double deepest) const { return unit_ * curve_->lost(deepest); }
 
   /// Force that one contact bears whose face has the radius a, where nothing else presses: L'.
   double cap(double radius) const { return at(caps_, radius); }
