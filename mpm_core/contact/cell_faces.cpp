@@ -48,8 +48,8 @@ bool CellFaces::cut_face(std::size_t j, std::span<const double> heights, double 
     const double way = heights[i] - heights[j] * other.cosine, most = radius * other.sine;
     if (way >= most) continue;
     if (way <= -most) return false;
-    const double distance = way / other.sine, half = std::acos(distance / radius), at = azimuth(i, j);
-    edges_.push_back({distance, std::sqrt(radius * radius - distance * distance), at - half, at + half, at});
+    const double distance = way / other.sine, half = std::acos(std::clamp(distance / radius, -1.0, 1.0)), at = azimuth(i, j);
+    edges_.push_back({distance, std::sqrt(std::max(radius * radius - distance * distance, 0.0)), at - half, at + half, at});
   }
   return true;
 }

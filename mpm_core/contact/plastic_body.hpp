@@ -26,7 +26,7 @@ class PlasticBody
   double unit() const { return unit_; }
 
   /// Force of one contact at an overlap, of first loading.
-  double force(double overlap) const { return unit_ * curve_->force(overlap); }
+  double force(double overlap) const { return overlap > 0 ? unit_ * curve_->force(overlap) : 0.0; }
   /// A contact whose largest overlap is `deepest`.
   struct PairAnswer
   {

@@ -5,18 +5,14 @@
 #include <ctime>
 #include <memory>
 
-#include "atlas/law_from_atlas.hpp"
 #include "base/error.hpp"
-#include "characterise/body/characterised_body.hpp"
-#include "characterise/body/law_material.hpp"
 #include "command.hpp"
 #include "json_output.hpp"
-#include "law/law_file.hpp"
 #include "law/oblique.hpp"
 #include "material_file/materials_file.hpp"
 #include "option_checks.hpp"
-#include "own_files.hpp"
 #include "solver/runs.hpp"
+#include "sphere_law.hpp"
 #include "terminal.hpp"
 
 namespace granulaw {
@@ -37,32 +33,6 @@ struct Row
   std::string way;
   double e, e_tangential, spin, cpu_s;  // spin: rad/s
 };
-
-/// The law of the particle's material: of the file, else of the atlas.
-Law law_of(const ObliqueRequest& r, const LawMaterial& material, const Material& whole)
-{
-  if (!r.law.empty()) return read_law(r.law);
-  const auto atlas = own_atlas();
-  if (!atlas) fail("mpm oblique", "the atlas that came with the program is missing: give --law, or --tangential solver");
-  std::string why = atlas->why_not(MaterialRatios::of(material));
-  if (why.empty() && !(whole.hardening.name.empty() && whole.rate.name.empty() && whole.yield_surface.name.empty()))
-    why = "has a hardening law or a rate that the atlas does not hold";
-  if (!why.empty()) fail(r.materials, fmt::format("'{}' {}: make its law by mpm table and give it as --law, or say --tangential solver", material.name, why));
-  LawRange range;
-  range.depth = Atlas::depth, range.fastest = 0.3;
-  Law law;
-  law.bodies[material.name] = law_from(*atlas, material, range);
-  law.pairs.push_back({material.name, wall_name});
-  return law;
-}
-
-/// The name of the particle's material, by which law files call it.
-std::string material_name(const MaterialsFile& file, const Material& material)
-{
-  for (const auto& [name, one] : file.materials)
-    if (description_of(one) == description_of(material)) return name;
-  return "material";
-}
 
 Row by_law(const ObliqueRequest& r, const PairLaw& pair, const ObliqueThrow& thrown, TangentialKind kind)
 {
@@ -106,13 +76,9 @@ void oblique(const ObliqueRequest& r)
   if (r.tangential == "solver")
     rows.push_back(by_solver(r, particle, thrown));
   else {
-    LawMaterial named = law_material(material_name(file, material), material);
-    const Law law = law_of(r, named, material);
-    if (law.bodies.contains(r.particle)) named.name = r.particle;
-    const std::string& source = r.law.empty() ? r.materials : r.law;
-    const PairLaw pair = resolve_pair(law, named.name, wall_name, source);
-    check_size(pair, particle.radius, "mpm oblique");
-    if (const std::string why = unknown_flow_stress(law, pair); r.tangential == "plastic" && !why.empty()) fail(source, why);
+    const SphereLaw of = sphere_law(r.materials, r.particle, r.law, "mpm oblique", "--tangential solver");
+    const PairLaw pair = of.wall();
+    if (const std::string why = unknown_flow_stress(of.law, pair); r.tangential == "plastic" && !why.empty()) fail(of.source, why);
     rows.push_back(by_law(r, pair, thrown, r.tangential == "history" ? TangentialKind::history : TangentialKind::plastic));
     if (!r.json && r.tangential == "plastic") rows.push_back(by_law(r, pair, thrown, TangentialKind::history));
   }

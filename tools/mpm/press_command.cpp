@@ -10,8 +10,10 @@
 #include "command.hpp"
 #include "material_file/planes_file.hpp"
 #include "option_checks.hpp"
+#include "press_by_law.hpp"
 #include "run_report.hpp"
 #include "solver/runs.hpp"
+#include "sphere_law.hpp"
 
 namespace granulaw {
 
@@ -23,7 +25,7 @@ struct PressRequest
   double depth = 0;  // over R
   std::string support = "free";
   std::optional<double> ramp;  // R/c*
-  std::string planes;
+  std::string planes, by = "solver", law;
 };
 
 /// Shallowest press, over R: a contact of about 1e-4 R. The time step goes with its cells, so smaller ones
@@ -42,6 +44,15 @@ void check_numbers(const PressRequest& r)
   if (r.ramp) require(*r.ramp >= 1 && *r.ramp <= 1e6, "--ramp", fmt::format("{:g} R/c*", *r.ramp), "1 to 1e6");
 }
 
+/// A press by the law has no grid.
+void check_by_law(const PressRequest& r)
+{
+  const RunRequest& run = r.run;
+  const char* option = !run.fields.empty() ? "--fields" : !run.checkpoint.empty() ? "--checkpoint" : run.tolerance ? "--tolerance" : run.resolution ? "--resolution" : "";
+  if (*option) fail("--by", fmt::format("law has no grid: leave out {}", option), r.by, "solver");
+  if (r.support != "free") fail("--support", "cannot go with --by law: planes hold the body", r.support, "no --support");
+}
+
 PressPlan plan_of(const PressRequest& r, const Particle& particle)
 {
   PressPlan plan;
@@ -51,24 +62,42 @@ PressPlan plan_of(const PressRequest& r, const Particle& particle)
   return plan;
 }
 
-void press_by_planes(const PressRequest& r, const Particle& particle, RunIdentity asked, const std::function<void(const RunIdentity&, const Run&)>& run)
+PressPlan plan_by_planes(const PressRequest& r, const Particle& particle)
 {
-  if (r.support != "free") fail("--support", "cannot go with three dimensions: planes hold the body", r.support);
   PressPlan plan;
   plan.planes = read_planes(r.planes.empty() ? "pair" : r.planes, "--planes");
   plan.depth = r.depth * particle.radius;
   plan.ramp = r.ramp.value_or(0);
+  return plan;
+}
+
+void press_by_planes(const PressRequest& r, const Particle& particle, RunIdentity asked, const std::function<void(const RunIdentity&, const Run&)>& run)
+{
+  if (r.support != "free") fail("--support", "cannot go with three dimensions: planes hold the body", r.support);
+  const PressPlan plan = plan_by_planes(r, particle);
   for (const PressPlane& p : plan.planes)
     asked.emplace_back("--planes", fmt::format("{} {} {} {}", fmt::join(p.direction, " "), p.distance.value_or(-1), p.speed, p.friction));
   run(asked, [&](const RunOptions& options) { return granulaw::press(particle, plan, {}, options); });
 }
 
+void press_by_law(PressRequest& r, const Meeting& m)
+{
+  check_by_law(r);
+  const SphereLaw law = sphere_law(r.run.materials, r.run.particle, r.law, "mpm press", "--by solver");
+  if (!r.run.json) fmt::print("by the law of '{}' pressed from all sides\n", law.name);
+  const RunResult result = granulaw::press_by_law(law.wall(), m.particle.radius, plan_by_planes(r, m.particle));
+  r.run.grid = "law";
+  report(r.run, m.particle, result);
+}
+
 void press(PressRequest r)
 {
-  if (!r.planes.empty()) require_three_dimensions(r.run, "--planes");
+  if (!r.planes.empty() || r.by == "law") require_three_dimensions(r.run, r.planes.empty() ? "--by law" : "--planes");
   check(r);
   const Meeting m = read_meeting(r.run);
   check_numbers(r);
+  if (r.by == "law") return press_by_law(r, m);
+  if (!r.law.empty()) fail("--law", "needs --by law", r.law);
   const PressPlan plan = plan_of(r, m.particle);
   print_setting(r.run, m.particle, 0);
   const RunIdentity asked{{"command", "press"}, {"--depth", fmt::format("{}", r.depth)}, {"--support", r.support}, {"--ramp", fmt::format("{}", r.ramp.value_or(0))}};
@@ -87,6 +116,11 @@ void define(Options& command)
       "--ramp", r->ramp, "loading time in R/c*, c* = sqrt(E*/rho), 1 to 1e6 (default: long enough for the rate-independent law, 60 or more where the material yields)");
   command.add_option("--planes", r->planes,
       "three dimensions: planes that press the body, by name (pair, cube, die, bcc, fcc) or in a FILE (default: pair). A line of the file for each: nx ny nz [distance speed friction]. The normal n points from the body to the plane, in the body's frame. The distance from the origin is in m, or touch. The speed is the plane's way over --depth (1), friction is Coulomb's coefficient (0)");
+  command
+      .add_option("--by", r->by,
+          "solver, or law: a sphere between planes by the law of one contact and of a particle that is pressed from all sides, in milliseconds; no friction")
+      .among({"solver", "law"});
+  command.add_option("--law", r->law, "of --by law: a law file; without it the atlas's law of the material");
   command.callback([r] { press(*r); });
 }
 

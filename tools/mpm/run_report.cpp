@@ -126,7 +126,7 @@ void report(const RunRequest& r, const Particle& particle, const RunResult& resu
     fmt::print("estimated error of F and e     not known: no coarser grid is another\n");
   else if (s.error_estimate > 0)
     fmt::print("estimated error of F and e     {:.2g}\n", s.error_estimate);
-  fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps, s.cpu_s, 1e-6 * s.point_updates_per_s);
+  if (s.points > 0) fmt::print("{} points, {} steps, {:.2f} CPU s, {:.1f} million point updates a second\n", s.points, s.steps, s.cpu_s, 1e-6 * s.point_updates_per_s);
   if (!r.output.empty()) fmt::print("wrote {}\n", r.output);
   if (!r.fields.empty()) fmt::print("wrote {}\n", r.fields);
 }

@@ -213,6 +213,14 @@ TEST(Confined, ClosedPathsGainNothing)
   EXPECT_GT(worst, -1e-5);  // a step's rounding of the return, second order in it; the work of a path is .1 to 2
 }
 
+TEST(Confined, ASideThatOnlyBulgingReachesBears)
+{
+  Press press(solid().body, cube());
+  press.to({-0.01, -0.01, -0.01, -0.01, 0, 0}), press.to({-0.01, -0.01, -0.01, -0.01, 0.3, 0.3});
+  for (int i = 0; i < 4; ++i) EXPECT_GT(press.force[static_cast<std::size_t>(i)], 0.1);  // Y R^2; planes that touch bear .42
+  EXPECT_EQ(press.force[0], press.force[1]);
+}
+
 TEST(Confined, ARecordGoesOnToTheBit)
 {
   std::mt19937 random(5);
