@@ -168,8 +168,17 @@ def test_three_dimensions():
     with h5py.File("f.h5") as file:
         assert file["cells"].shape[1] == 8 and file["frame0000/position"].shape[1] == 3
     assert Path("p.csv").read_text().splitlines()[0].endswith("branch," + ",".join(f"force_{k}_N" for k in range(1, 7)))
+    by_law = ["press", "m.toml", "--particle", "grain", "--depth", "0.1", "--planes", "cube", "--by", "law"]
+    pressed = answer(*by_law, "-o", "l.csv", "--json")
+    assert pressed.keys() == cube.keys() and pressed["energy_error"] < 2e-3
+    # docs/evidence/confined.md: within 8 %, and a cube of few cells
+    assert all(abs(a["force_N_at_depth"] / b["force_N_at_depth"] - 1) < 0.12 for a, b in zip(pressed["planes"], cube["planes"], strict=True))
+    assert Path("l.csv").read_text().splitlines()[0] == Path("p.csv").read_text().splitlines()[0]
+    refused([*by_law, "--resolution", "8"], "leave out --resolution")
+    refused([*by_law[:-2], "--law", "law.h5"], "--law: needs --by law")
     Path("planes.txt").write_text("# two planes\n0 0 1\n0 0 -1 touch 0 0.2\n")
     assert len(answer(*squeeze, "--planes", "planes.txt", "--json")["planes"]) == 2
+    refused([*by_law[:7], "planes.txt", *by_law[8:]], "cannot have friction with --by law")
     Path("planes.txt").write_text("0 0 1\n0 0\n")
     refused([*squeeze, "--planes", "planes.txt"], "planes.txt:2", "3 to 6")
     refused([*squeeze, "--planes", "octa"], "pair, cube, die, bcc, fcc")

@@ -118,7 +118,7 @@ void define(Options& command)
       "three dimensions: planes that press the body, by name (pair, cube, die, bcc, fcc) or in a FILE (default: pair). A line of the file for each: nx ny nz [distance speed friction]. The normal n points from the body to the plane, in the body's frame. The distance from the origin is in m, or touch. The speed is the plane's way over --depth (1), friction is Coulomb's coefficient (0)");
   command
       .add_option("--by", r->by,
-          "solver, or law: a sphere between planes by the law of one contact and of a particle that is pressed from all sides, in milliseconds; no friction")
+          "solver; or law, in milliseconds: a sphere between planes by the law of a particle that is pressed from all sides. The law has no friction")
       .among({"solver", "law"});
   command.add_option("--law", r->law, "of --by law: a law file; without it the atlas's law of the material");
   command.callback([r] { press(*r); });
