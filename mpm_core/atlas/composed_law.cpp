@@ -162,7 +162,7 @@ ComposedState ComposedPair::at(double a) const
   const double residual = s.residual + h.residual, recovered = s.recovered + h.recovered;
   // A surface that its partner hollows out is sloped under the pressure and recovers less, its partner's more.
   const auto slope = [&](BodyAtContact::Share& share, double radius) {
-    constexpr double measured = 0.26;  // docs/develop/pairs.md
+    constexpr double measured = 0.26;  // docs/develop/notes.md
     share.give_back(1 - measured * flatness * (share.curvature - a / radius));
   };
   slope(s, radius_), slope(h, partner_radius_);

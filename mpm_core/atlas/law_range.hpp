@@ -18,7 +18,7 @@ struct LawRange
 /// Throws Error where a number is outside what a law can reach.
 void check(const LawRange& range);
 
-/// Damage number whose inertia adds less than the tolerance to F and e (docs/develop/runs-and-laws.md): a press may load,
+/// Damage number whose inertia adds less than the tolerance to F and e (docs/develop/notes.md): a press may load,
 /// and an impact count as slow, at up to 0.16 of the tolerance. One over 1 % counts as 1 %.
 double negligible_damage_number(double tolerance);
 

@@ -34,7 +34,7 @@ double log_overlap_of(double node, double end)
 constexpr double flat = 1e-6;
 
 /// Contact over radius of the equivalent sphere: a surface that its partner hollows out counts as wider. The square is
-/// measured (docs/develop/pairs.md); a body on a flat or its like, and one that its partner wraps, is its own.
+/// measured (docs/develop/notes.md); a body on a flat or its like, and one that its partner wraps, is its own.
 double equivalent_contact(double curvature, double contact)
 {
   const double hollow = std::max(0.0, curvature - contact);

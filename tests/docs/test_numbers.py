@@ -29,6 +29,11 @@ def table_with(text, head):
     return tables(after)[0]
 
 
+def stored(name):
+    """Rows of a CSV by the names of its columns, without its comments."""
+    return list(csv.DictReader(line for line in page(name).splitlines() if not line.startswith("#")))
+
+
 class Flows(unittest.TestCase):
     def test_margins_follow_from_means_and_errors(self):
         """Each margin of two one-sided tests is |difference| + t standard errors of the values that the deck's page has."""
@@ -50,41 +55,29 @@ class Flows(unittest.TestCase):
 
 
 class Accuracy(unittest.TestCase):
-    PAGE = page("docs/evidence/solver-accuracy.md")
-
-    def count(self, rows, errors, stated):
-        """(rows that hold, rows, true over stated) of a table: `errors`: columns of true errors."""
-        held, ratios = 0, []
-        numbers = lambda cell: [float(x.strip("* +").replace("+", "")) for x in cell.split(",")]
-        for row in rows:
-            for k, claim in enumerate(numbers(row[stated])):
-                true = max(abs(numbers(row[c])[k]) for c in errors)
-                held += true <= claim + 0.05  # both are rounded to 0.1
-                ratios.append(true / claim)
-        return held, len(ratios), ratios
-
-    def test_four_grids(self):
-        seen = self.count(table_with(self.PAGE, "| E*/Y | V/V_y | cells | e % | F % | estimate % |"), (3, 4), 5)
-        fresh = self.count(table_with(self.PAGE, "| job | cells | e % | F % | estimate % |"), (2, 3), 4)
-        self.assertIn(f"The estimate held in all {seen[0]}, but", self.PAGE)
-        self.assertEqual(seen[0], seen[1])
-        self.assertIn(f"It held in {fresh[0]} of {fresh[1]}. Over all {seen[1] + fresh[1]} the true error is "
-                      f"{statistics.median(seen[2] + fresh[2]):.1f} of the estimate", self.PAGE)
-        self.assertIn(f"it held in {seen[0] + fresh[0]} of {seen[1] + fresh[1]} runs on four grids", self.PAGE)
-
-    def test_one_grid(self):
-        held, count, ratios = self.count(table_with(self.PAGE, "| E*/Y | V/V_y | e % | F % | estimate % | CPU s |"), (2, 3), 4)
-        self.assertIn(f"It held in all {held}. The true error is {statistics.median(ratios):.1f} of the estimate", self.PAGE)
-        self.assertEqual(held, count)
-        self.assertIn(f"in {held} of {count} on one", self.PAGE)
+    def test_estimates(self):
+        """How many estimates hold in three dimensions: both errors of a run count, against one estimate."""
+        found, ratios = {}, {}
+        for row in stored("docs/evidence/estimates.csv"):
+            true, stated = max(abs(float(row["e %"])), abs(float(row["F %"]))), float(row["estimate %"])
+            held, count = found.get(row["set"], (0, 0))
+            found[row["set"]] = (held + (true <= stated + 0.05), count + 1)  # both are rounded to 0.1
+            ratios.setdefault("default" if row["set"] == "default" else "four", []).append(true / stated)
+        (fit, of_fit), (fresh, of_fresh), (one, of_one) = (found[name] for name in ("rule", "fresh", "default"))
+        self.assertEqual(fit, of_fit)
+        text = page("docs/evidence/solver-accuracy.md")
+        self.assertIn(f"It held in {fit + fresh} of {of_fit + of_fresh} runs on four grids (fresh jobs: {fresh} of {of_fresh};", text)
+        self.assertIn(f"it held in {one} of {of_one}. The true error is {statistics.median(ratios['four']):.1f} and {statistics.median(ratios['default']):.1f} of", text)
 
 
 class Times(unittest.TestCase):
     def test_laws_by_runs(self):
         """The times of the pages of the guide span those of the table, within a tenth."""
-        seconds = [float(re.match(r"\d+", row[2])[0]) for row in table_with(page("docs/evidence/particles.md"), "| law | runs | CPU s")]
-        for name in ("docs/guide/when-it-stops.md",):
-            for low, high in re.findall(r"(\d+) to (\d+) CPU seconds (?:a law|by runs)", page(name)):
+        rows = table_with(page("docs/evidence/particles.md"), "| law | runs | CPU s |")
+        kinds = {"a law": rows, "by runs": rows[:3], "with layers": rows[3:]}
+        for name in ("docs/guide/when-it-stops.md", "docs/guide/particle-laws.md", "docs/evidence/particles.md"):
+            for low, high, kind in re.findall(r"(\d+) to (\d+) CPU seconds (a law|by runs|with layers)", page(name)):
+                seconds = [float(row[2]) for row in kinds[kind]]
                 self.assertTrue(0.9 * min(seconds) <= float(low) <= min(seconds) and max(seconds) <= float(high) <= 1.1 * max(seconds), (name, low, high))
 
     def test_three_dimensions(self):
@@ -111,10 +104,9 @@ class Limits(unittest.TestCase):
         self.assertIn(f"| {force}, {e} in 95 % of mixtures |", self.README)
         corrected = re.search(r"`--correct-pairs`[^|]*\|[^|]*?([\d.]+ %)[^|]*?\be\b[^|]*?([\d.]+)", page("docs/evidence/pairs.md"))
         self.assertIn("| F_max {}, e {} | runs of both particles |".format(*corrected.groups()), self.PAGE)
-        runs = table_with(page("docs/evidence/particles.md"), "| law | runs | CPU s")
-        guided = table_with(page("docs/develop/runs-and-laws.md"), "| law, before and after | runs | CPU s |")
-        errors = [x for row in runs for x in row[3].split(", ")] + [row[3].split(", ")[-1] for row in guided]
-        largest = max(float(x.rstrip(" %")) for x in errors)
+        runs = table_with(page("docs/evidence/particles.md"), "| law | runs | CPU s |")
+        largest = max(float(row[3].rstrip(" %")) for row in runs)
+        self.assertIn(f"agree within {largest:.1f} % of F and {max(float(row[4]) for row in runs)} of e", page("docs/evidence/particles.md"))
         self.assertIn(f"| F_max and e {largest:.1f} % (largest) | new runs |", self.PAGE)
 
     def test_shapes(self):
@@ -203,7 +195,7 @@ class Examples(unittest.TestCase):
 
     def test_thornton_against_the_solver(self):
         """The closed form with p_y = 1.6 Y and 2.5 Y against e of the hard cases; e by Poisson's ratio there."""
-        cases = {row[0]: float(row[3]) for row in table_with(page("docs/evidence/hard-cases.md"), "| case | stressed by | δ_max/R | e | change | reference |") if row[3]}
+        cases = {row["case"]: float(row["e"]) for row in stored("docs/evidence/hard-cases.csv") if row["e"]}
 
         def off(speed, e, y):
             x = (y / 1.6) ** 2.5 / speed
@@ -277,15 +269,14 @@ class Published(unittest.TestCase):
 
     def test_formulas(self):
         """Every cell of both tables is the CSV's, rounded."""
-        with (ROOT / "docs/evidence/formulas.csv").open() as file:
-            stored = {(r["E*/Y"], r["quantity"], float(r["at"])): r for r in csv.DictReader(line for line in file if not line.startswith("#"))}
+        known = {(r["E*/Y"], r["quantity"], float(r["at"])): r for r in stored("docs/evidence/formulas.csv")}
         columns = {"e": ("law", "Thornton 1.6", "Thornton 2.5", "Thornton 2.8", "Jackson-Green"),
                    "force": ("law", "Hertz", "Thornton 1.6", "Thornton 2.5", "Thornton 2.8", "Jackson-Green")}
         for quantity, head in (("e", "| E*/Y | V/V_y | law |"), ("force", "| E*/Y | overlap/R | F/(Y R²), law |")):
             rows = table_with(page("docs/evidence/formulas.md"), head)
             self.assertGreater(len(rows), 5)
             for stiffness, at, *cells in rows:
-                row = stored[stiffness, quantity, float(at)]
+                row = known[stiffness, quantity, float(at)]
                 for cell, column in zip(cells, columns[quantity], strict=True):
                     self.assertEqual(bool(cell), bool(row[column]), (stiffness, at, column))
                     if cell:
@@ -294,7 +285,7 @@ class Published(unittest.TestCase):
         times = table_with(page("docs/evidence/formulas.md"), "| over the law's | 1.6 Y |")
         for name, *cells in times:
             for cell, factor in zip(cells, ("1.6", "2.5", "2.8"), strict=True):
-                self.assertAlmostEqual(float(cell), float(stored["100", name, 50.0][f"Thornton {factor}"]), delta=0.0051)
+                self.assertAlmostEqual(float(cell), float(known["100", name, 50.0][f"Thornton {factor}"]), delta=0.0051)
 
 
 class Matlab(unittest.TestCase):

@@ -253,7 +253,7 @@ class TestPaper:
         return found
 
     def test_it_yields_beyond_the_exact_onset_alone(self):
-        # theory to 2 % of the velocity (docs/evidence/verification.md)
+        # theory to 2 % of the velocity (docs/evidence/solver-accuracy.md)
         assert self.values("onset", "plastic strain", " 0.95 of") == [0, 0, 0]
         assert min(self.values("onset", "plastic strain", " 1.05 of")) > 1e-5
 

@@ -2,7 +2,7 @@
 
 Runs that differ only in the order of floating-point sums drift apart as fast as a run whose particles were moved by one
 unit in the last place. That is measured in the same test, and is the yardstick: a lost or wrong contact history shows at
-1e-3 of a radius (docs/evidence/trials.md: stock thornton_ning does it here)."""
+1e-3 of a radius (docs/evidence/tests.md: stock thornton_ning does it here)."""
 import math
 import random
 

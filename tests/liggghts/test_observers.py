@@ -1,6 +1,6 @@
 """Quantities that LIGGGHTS reads out of the pair loop, which is our own: equal to stock Hertz's under an elastic law.
 
-Material `elastic` is Hertz from the law's tables (error 3e-6 of the force: docs/evidence/trials.md), without damping;
+Material `elastic` is Hertz from the law's tables (error 3e-6 of the force: docs/evidence/tests.md), without damping;
 stock Hertz with restitution 1 has none either. One state, so that nothing has time to drift apart.
 """
 

@@ -101,7 +101,7 @@ int study(const std::string& folder, int threads)
     RunOptions fine;
     fine.resolution = 40, fine.courant = 0.6, fine.slowness = 2, fine.threads = threads;
     fine.precision =
-        Precision::single;  // agrees with double to 1e-6 (docs/evidence/cost.md), for two thirds of the time
+        Precision::single;  // agrees with double to 1e-6 (docs/evidence/solver-accuracy.md), for two thirds of the time
     const RunSummary reference = cached(cache, c, fine).summary;
     RunResult coarse;
     for (const int cells : {10, 14, 20}) {

@@ -330,7 +330,7 @@ OnsetImpact impact_about_onset(double e_over_y, double nu, double v_over_onset, 
 
 struct Case
 {
-  double nu, depth, pressure_ratio;  // docs/evidence/verification.md, the onset of yield; three decimals
+  double nu, depth, pressure_ratio;  // docs/evidence/solver-accuracy.md, the onset of yield; three decimals
 };
 std::ostream& operator<<(std::ostream& out, const Case& c)
 {

@@ -42,7 +42,7 @@ inline constexpr double elastic_impact_time = 27.2;       // R/c*
 /// ours: E*/Y = 100: delta 0.02: F -0.5 %, e -0.0027; 0.1: F -0.46 %, e -0.0014. The hardening case was not
 /// measured apart: it carries the change of its neighbour at the same depth. CalculiX yields on the Cauchy
 /// stress. It has F 1.335 +- 0.007, 1.769 +- 0.013 and e 0.3420 +- 0.0006, 0.4489 +- 0.0009 to 0.1 R
-/// (docs/evidence/calculix.md).
+/// (docs/evidence/solver-accuracy.md).
 struct Press
 {
   const char* name;

@@ -142,7 +142,7 @@ LawShape Assembly::main_shape(double stiffness, double hardening) const
 }
 
 // Near the onset of yield a law is a function of overlap/onset, but for the finite body: a term in Y/E*, which goes
-// as sqrt(onset/R), and one in its square (docs/develop/runs-and-laws.md).
+// as sqrt(onset/R), and one in its square (docs/develop/notes.md).
 
 /// The law of the reference set at one stiffness, brought to another onset.
 LawShape Assembly::main_at(double onset, double stiffness, double hardening) const

@@ -24,7 +24,7 @@ constexpr double elastic_from = 0.1;
 /// left, 0.31 %.
 constexpr double yielded_from = 1. / 3;
 
-/// Grid noise of a sample grows as (cell/contact radius)^1.65 (docs/develop/runs-and-laws.md): its weight falls as
+/// Grid noise of a sample grows as (cell/contact radius)^1.65 (docs/develop/notes.md): its weight falls as
 /// x^0.8.
 double resolution_weight(double x, double depth)
 {

@@ -15,7 +15,7 @@ RunJob elastic_press_job(const CharacterisedBody& body, int cells, const RunSour
 /// the material at the pole and the overlaps at which the press's von Mises stress reaches a material's yield
 /// stress. Of the pole's own material these count where the grid resolves the contact; below, Hertz's formula
 /// holds. Points at the contact edge, which no buried material has, reach it early at small Poisson ratios:
-/// by 3 % of the overlap at 0.3 and more, by 14 % at 0.2, 34 % at 0 (docs/develop/runs-and-laws.md).
+/// by 3 % of the overlap at 0.3 and more, by 14 % at 0.2, 34 % at 0 (docs/develop/notes.md).
 /// Infinity: the press was not deep enough.
 double onset_of_yield(const CharacterisedBody& body, const RunResult& press);
 

@@ -99,7 +99,7 @@ std::vector<double> first_rate_speeds(double slowest, double fastest);
 /// Loading time of a slow press, in R/c*, that a tolerance of F and e allows; 0, the solver's own: of a body
 /// that never yields, or where no tolerance is asked for. A ramp adds to F and e
 /// - its inertia, negligible up to a damage number at the highest speed of loading;
-/// - the body's vibration at the reversal, which falls as the fifth power of the ramp (docs/develop/runs-and-laws.md).
+/// - the body's vibration at the reversal, which falls as the fifth power of the ramp (docs/develop/notes.md).
 /// A tolerance over 1 % counts as 1 %.
 double loading_ramp(const CharacterisedBody& body, double depth, double tolerance);
 

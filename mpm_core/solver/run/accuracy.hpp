@@ -28,7 +28,7 @@ struct CellsRule
   double left(std::span<const double> changes, double cell_ratio) const;
 };
 /// Bodies of revolution: order measured with 17, 24 and 48 cells, 25 impacts and presses, E*/Y 30 to 2000
-/// (docs/develop/runs-and-laws.md).
+/// (docs/develop/notes.md).
 inline constexpr CellsRule rule_of_revolution{1.25, 1.65};
 /// Three dimensions: errors of a cut surface fall like h.
 inline constexpr CellsRule spatial_rule{1, 1};
