@@ -93,17 +93,33 @@ class Limits(unittest.TestCase):
     PAGE, README = page("docs/guide/limits.md"), page("README.md")
 
     def test_laws(self):
-        atlas = table_with(page("docs/evidence/atlas.md"), "| seed, impacts | | median |")
-        force, e = ({row[7] for row in atlas if row[1] == name} for name in ("F_max", "e"))
+        atlas = stored("docs/evidence/atlas-checks.csv")
+        force, e = ({row["bound"] for row in atlas if row["quantity"] == name} for name in ("F_max", "e"))
         self.assertEqual((len(force), len(e)), (1, 1))
+        text = page("docs/evidence/atlas.md")
+        self.assertIn(f"within **{min(force)} of F_max and {min(e)} of e**", text)
+        for label, seeds in (("500 checks", ("1",)), ("500 that no choice has seen (seeds 13, 14)", ("13", "14"))):
+            largest = lambda quantity, column: max((row[column] for row in atlas if row["seed"] in seeds and row["quantity"] == quantity), key=lambda x: float(x.rstrip(" %")))
+            cells = [", ".join(largest(quantity, column).rstrip(" %") for column in ("median", "95 %", "worst")) for quantity in ("F_max", "e")]
+            self.assertIn(f"| {label} | {cells[0]} % | {cells[1]} |", text)
+        for row in stored("docs/evidence/atlas-bounds.csv"):
+            if row["set"] == "fresh":
+                values = [row[column].removesuffix(" %") for column in list(row)[3:]]
+                holds = ", ".join(f"{float(x):.1f}".removesuffix(".0") if float(x) == 100 else x for x in values[4:6])
+                self.assertIn(f"| {row['E*/Y']} | {values[0]} %, {values[1]} | {values[2]} %, {values[3]} | {holds} % | {values[6]} %, {values[7]} |".replace("*", "\\*"), text)
         self.assertIn(f"| F_max {min(force)}, e {min(e)} (95 % of impacts) |", self.PAGE)
         self.assertIn(f"| {min(force)}, {min(e)} in 95 % of impacts |", self.README)
         every = table_with(page("docs/evidence/pairs.md"), "| mixtures | within the bound: F, e |")[-1]
         (_, force, worst_force), (_, e, worst_e) = (cell.split(", ") for cell in every[2:4])
         self.assertIn(f"| F_max {force}, e {e} (95 % of mixtures); {worst_force}, {worst_e} (largest) |", self.PAGE)
         self.assertIn(f"| {force}, {e} in 95 % of mixtures |", self.README)
-        corrected = re.search(r"`--correct-pairs`[^|]*\|[^|]*?([\d.]+ %)[^|]*?\be\b[^|]*?([\d.]+)", page("docs/evidence/pairs.md"))
-        self.assertIn("| F_max {}, e {} | runs of both particles |".format(*corrected.groups()), self.PAGE)
+        runs = stored("docs/evidence/pairs-corrected.csv")
+        largest = {column: max(abs(float(row[column])) for row in runs) for column in list(runs[0])[3:]}
+        force, e = (f"{largest[f'corrected {name}']:g}" for name in ("F %", "e"))
+        self.assertIn(f"(`--correct-pairs`) | F within {force} %, e within {e} at equal radii", page("docs/evidence/pairs.md"))
+        self.assertIn(f"| corrected | {force} % | {e} |", page("docs/evidence/pairs.md"))
+        self.assertIn(f"| composed | {largest['composed F %']} % | {largest['composed e']:g} |", page("docs/evidence/pairs.md"))
+        self.assertIn(f"| F_max {force} %, e {e} | runs of both particles |", self.PAGE)
         runs = table_with(page("docs/evidence/particles.md"), "| law | runs | CPU s |")
         largest = max(float(row[3].rstrip(" %")) for row in runs)
         self.assertIn(f"agree within {largest:.1f} % of F and {max(float(row[4]) for row in runs)} of e", page("docs/evidence/particles.md"))
@@ -118,21 +134,32 @@ class Limits(unittest.TestCase):
 
     def test_oblique(self):
         """Largest deviations of both tangential laws up to a contact radius of R/4, and in deep dents."""
-        every = table_with(page("docs/evidence/oblique.md"), "| E\\*/Y | H/E | V/V_y | overlap/R |")
+        every = stored("docs/evidence/oblique-materials.csv")
+        fitted, fresh = ([row for row in every if row["set"] == name] for name in ("fitted", "fresh"))
+        shallow = [row for row in fitted if float(row["contact radius/R"]) <= 0.25]
+        deep = [row for row in fitted if row not in shallow]
 
-        def deviations(rows, column, part):
-            return [abs(float(row[column].split("; ")[part].split(", ")[1])) for row in rows]
+        def deviations(rows, law, quantity):
+            return [abs(float(row[f"{law} {quantity} largest"])) for row in rows]
 
-        def largest(column):
-            return [round(max(deviations([row for row in every if float(row[4]) <= 0.25], column, part))) for part in range(3)]
+        def largest(rows, law):
+            return [round(max(deviations(rows, law, quantity))) for quantity in ("e", "v_t", "omega")]
 
-        (e, speed, spin), plastic = largest(6), largest(7)
+        text = page("docs/evidence/oblique.md")
+        slow = [row for row in fresh if float(row["V/V_y"]) < 1000]
+        for label, rows in (("to a contact radius of R/4:", shallow), ("deeper, to 0.17 R:", deep), ("fresh materials and speeds, to 671 V_y", slow),
+                            ("fresh, at 1000 V_y", [row for row in fresh if row not in slow])):
+            cells = ["; ".join(map(str, largest(rows, law))) for law in ("history", "plastic")]
+            self.assertRegex(text, rf"\| {re.escape(label)}[^|]*\| {cells[0]} \| {cells[1]} \|")
+        (e, speed, spin), plastic = largest(shallow, "history"), largest(shallow, "plastic")
+        self.assertIn(f"errs by up to {spin} % in spin, {e} % in e and {speed} % in tangential velocity", text)
+        self.assertIn(f"errs by up to {plastic[2]} % in spin, {plastic[1]} % in tangential velocity and {plastic[0]} % in e there", text)
         self.assertIn(f"spin up to {spin} %, tangential velocity {speed} %, e {e} % off", self.PAGE)
         self.assertIn(f"errs by up to {spin} %", self.README)
         self.assertIn(f"within {plastic[2]} %", self.README)
         self.assertIn(f"spin within {plastic[2]} %, tangential velocity {plastic[1]} %", page("docs/guide/tangential.md"))
-        deep = [deviations([row for row in every if round(float(row[3]), 2) >= 0.08], column, 2) for column in (6, 7)]
-        told = " | ".join(f"{min(spins):.0f} to {max(spins):.0f} %{off}" for spins, off in zip(deep, (" off", "")))
+        dents = [row for row in fitted if round(float(row["overlap/R"]), 2) >= 0.08]
+        told = " | ".join(f"{min(spins):.0f} to {max(spins):.0f} %{off}" for spins, off in ((deviations(dents, "history", "omega"), " off"), (deviations(dents, "plastic", "omega"), "")))
         self.assertIn(f"| deep dents, overlap from 0.08 R on | spin {told} |", page("docs/guide/tangential.md"))
 
     def test_loop_time(self):
@@ -255,9 +282,9 @@ class Examples(unittest.TestCase):
 
     def test_corrected_laws(self):
         """Error bounds of corrected laws in the guide: those of the table of evidence."""
-        stated = [row[5].split(", ") for row in table_with(page("docs/evidence/pairs.md"), "| partner | V, m/s | e | composed: F_max, e |")]
-        force, e = ([float(cells[k].rstrip(" %")) for cells in stated] for k in (0, 1))
+        force, e = ([float(row[column]) for row in stored("docs/evidence/pairs-corrected.csv")] for column in ("bound of F %", "bound of e"))
         self.assertIn(f"{min(force)} to {max(force)} % of F, {min(e):.3f} to {max(e):.3f} of e in the cases measured", page("docs/guide/pairs.md"))
+        self.assertIn(f"| {min(force)} to {max(force)} % of F, {min(e):.3f} to {max(e):.3f} of e |", page("docs/evidence/pairs.md"))
 
 
 class Published(unittest.TestCase):
