@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 """Speeds that `mpm plan DECK` predicts beside those that the deck's runs visited (stats.json), for every example that was run.
 
-    planned.py out [--write]      # --write: into examples/README.md, between its marks
+    planned.py out [--write]      # --write: into examples/planned.csv
 
 Largest speeds over all seeds; "yielding body": ratio of its speeds (half a like pair's, a wall's own)."""
+import csv
+import io
 import json
 import pathlib
 import shlex
@@ -14,9 +16,6 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE / "common"))
 import one_sentence  # noqa: E402, F401
 import marks, sweep  # noqa: E401, E402
-
-MARK = "planned.py"
-
 
 def variables(command):
     """The deck and {name: value} of `-var name value...`."""
@@ -95,21 +94,20 @@ def compare(deck, share=1.0):
 
 
 def table(out):
-    lines = ["| deck | model (runs) | pairs: planned, visited m/s | ratio | walls: planned, visited m/s | ratio | yielding particle |",
-             "|---|---|---|---|---|---|---|"]
-    rows = [(deck.name, *row) for deck in sorted(p for p in out.iterdir() if p.is_dir()) for row in compare(deck)]
-    for name, model, runs, bound, seen, plan in rows:
-        ratio = {side: f"{bound[side] / seen[side]:.2f}" if seen[side] else "not met" for side in bound}
-        lines.append(f"| {name} | {model} ({runs}) | {bound['pair']:.3g}, {seen['pair']:.3g} | {ratio['pair']} | {bound['wall']:.3g}, "
-                     f"{seen['wall']:.3g} | {ratio['wall']} | {body(bound) / body(seen):.2f} |")
-        for key in ("asks_for", "not_followed"):
-            for what in plan[key]:
-                lines.append(f"| {name} | {model} | {key.replace('_', ' ')}: {what} | | | | |")
-    return "\n".join(lines) + "\n"
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(["deck", "model", "runs", "pairs planned m/s", "pairs visited m/s", "walls planned m/s", "walls visited m/s", "ratio of the yielding particle"])
+    for deck in sorted(p for p in out.iterdir() if p.is_dir()):
+        for model, runs, bound, seen, plan in compare(deck):
+            writer.writerow([deck.name, model, runs, *(f"{speeds[side]:.3g}" for side in bound for speeds in (bound, seen)), f"{body(bound) / body(seen):.2f}"])
+            for key in ("asks_for", "not_followed"):
+                for what in plan[key]:
+                    writer.writerow([deck.name, model, f"{key.replace('_', ' ')}: {what}"])
+    return file.getvalue()
 
 
 def main(argv=None):
-    marks.command(__doc__, HERE / "README.md", MARK, table, argv)
+    marks.command(__doc__, HERE / "planned.csv", None, table, argv)
 
 
 if __name__ == "__main__":

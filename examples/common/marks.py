@@ -1,4 +1,4 @@
-"""Tables that scripts write into a README, between marks that name the script."""
+"""Tables that scripts write into a page between marks that name the script, or as a file of their own."""
 import argparse
 import pathlib
 
@@ -15,9 +15,12 @@ def command(doc, page, name, table, argv=None):
 
 
 def put(page, name, text, write):
-    """Prints `text`, or replaces with it what stands between the marks of `name` in the file `page`."""
+    """Prints `text`, or replaces with it what stands between the marks of `name` in the file `page`; the whole file if None."""
     if not write:
         print(text, end="")
+        return
+    if name is None:
+        page.write_text(text)
         return
     begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
     old = page.read_text()

@@ -213,11 +213,25 @@ class Project(unittest.TestCase):
         self.assertIn(f"| program | {version} |", page("docs/project/versions.md"))
 
 
+OBSERVABLES = stored("examples/differences.csv")
+
+
 class Examples(unittest.TestCase):
+    def test_differences(self):
+        """The page's significant differences are those of the file; its speeds, too."""
+        text = page("examples/README.md")
+        for deck, what, models, change in table_with(text, "| deck (seeds) | observable | models | change |"):
+            name, seeds = re.fullmatch(r"(\w+) \((\d+)\)", deck).groups()
+            row = next(row for row in OBSERVABLES if (row["deck"], row["observable"]) == (name, what))
+            self.assertEqual(row["seeds"], seeds)
+            self.assertTrue(row["{} differs from {}".format(*models.split(", "))].startswith(f"yes, {change}, p"), (deck, what))
+        ratios = [float(row["ratio of the yielding particle"]) for row in stored("examples/planned.csv")]
+        self.assertIn(f"the plan is {min(ratios):.1f} to {max(ratios):.1f} times the speed visited", text)
+
     def test_thornton_below_the_law(self):
         """The page of model thornton against the drops of the examples."""
-        rows = [row for row in table_with(page("examples/README.md"), "| deck (seeds) | observable |") if row[1].startswith("e on the wall at ")]
-        low = [round(100 * (1 - float(row[3].split()[0]) / float(row[4].split()[0]))) for row in rows[:3]]
+        rows = [row for row in OBSERVABLES if row["observable"].startswith("e on the wall at ")]
+        low = [round(100 * (1 - float(row["thornton"].split()[0]) / float(row["mpm"].split()[0]))) for row in rows[:3]]
         self.assertIn(": {}, {}, {} % at".format(*low), page("docs/reference/pair_gran_model_thornton.md"))
 
     def test_thornton_against_the_solver(self):
@@ -246,21 +260,20 @@ class Examples(unittest.TestCase):
 
     def test_heap(self):
         """The verdicts of the pile: the page's answer is no stronger than the table of all decks."""
-        rows = [row for row in table_with(page("examples/README.md"), "| deck (seeds) | observable |") if row[0].startswith("heap") and "angle" in row[1]]
-        self.assertTrue(all("**yes**" not in cell for cell in rows[0]))
+        angle = next(row for row in OBSERVABLES if row["deck"] == "heap" and "angle" in row["observable"])
+        self.assertTrue(not any(cell.startswith("yes") for cell in angle.values()))
         self.assertIn("**Answer.** Perhaps: 16 degrees", page("examples/heap/README.md"))
 
 
     def test_speeds_of_the_hopper(self):
         """The page on plan quotes the row of the smaller hopper."""
-        row = next(row for row in table_with(page("examples/README.md"), "| deck | model (runs) | pairs: planned, visited m/s |")
-                   if row[0] == "hopper" and row[1].startswith("mpm"))
-        (pair, hit), (wall, touched) = (cell.split(", ") for cell in (row[2], row[4]))
+        row = next(row for row in stored("examples/planned.csv") if (row["deck"], row["model"]) == ("hopper", "mpm"))
+        pair, hit, wall, touched = (row[f"{side} {what} m/s"] for side in ("pairs", "walls") for what in ("planned", "visited"))
         self.assertIn(f"bounds of {pair} and {wall} m/s, and its simulations under `mpm` visited {hit} and {touched}", page("docs/guide/plan.md"))
 
     def test_compression(self):
-        rows = [row for row in table_with(page("examples/README.md"), "| deck (seeds) | observable |") if row[0].startswith("compression") and "stress" in row[1]]
-        ratios = [float(row[4].split()[0]) / float(row[3].split()[0]) for row in rows]
+        rows = [row for row in OBSERVABLES if row["deck"] == "compression" and "stress" in row["observable"]]
+        ratios = [float(row["mpm"].split()[0]) / float(row["thornton"].split()[0]) for row in rows]
         self.assertIn(f"and {min(ratios):.1f} to {max(ratios):.1f} times Thornton's", page("examples/compression/README.md"))
 
     def test_irregular(self):
