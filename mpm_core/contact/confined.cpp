@@ -80,7 +80,9 @@ int ConfinedParticle::insert(std::int64_t key, const Vector& normal, double over
   SideState side;
   side.key = key, side.overlap = side.cached_overlap = overlap, side.cached_normal = normal;
   fresh_ = false;
-  return static_cast<int>(sides.insert(at, side) - sides.begin());
+  const auto place = at - sides.begin();
+  sides.insert(at, side);
+  return static_cast<int>(place);
 }
 
 void ConfinedParticle::remove(int i)
