@@ -19,6 +19,7 @@ struct HistoryMeaning
       deformable_wall = 1l << 34,           ///< `wall deformable`: X is over lambda R*, lambda of the pair
       body_compliance = 1l << 36,           ///< `bodyCompliance on`: a value of its own
       crush = 1l << 37,                     ///< `beyondRange crush`: a value of its own
+      confinement = 1l << 38,           ///< `confinement on`: contacts stand with their particles
       computed_stiffness = 1l << 35;        ///< `tangentialStiffness computed`: of the spring in the history
   /// `stretch S`: overlaps are S times the real ones.
   double stretch = 1.0;

@@ -95,6 +95,7 @@ class CountedStyle
   }
 };
 
+class Confinement;
 struct Setup;
 
 /// True: the process reads a deck for a plan (plan/planner.hpp), and writes nothing.
@@ -114,6 +115,7 @@ class Session
   bool crushes = false;            ///< `beyondRange crush` of the pair style or a wall
   EnergyTally tally;
   Bodies bodies;
+  Confinement* confinement = nullptr;  ///< all contacts of a particle at once (confine/confinement.hpp); null: `confinement off`
 
   /// What is done in each step before the forces, on all ranks (run/fix_step.hpp): for numbers that all contacts of a particle
   /// share.

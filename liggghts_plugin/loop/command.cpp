@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "liggghts_plugin/confine/confinement.hpp"
 #include "liggghts_plugin/contact/superquadric.hpp"
 #include "liggghts_plugin/engine/deck_units.hpp"
 #include "liggghts_plugin/engine/fix_style.hpp"
@@ -76,6 +77,7 @@ void note_meaning(const CommandModels& models, Setup& setup)
                        bit(setup.contact_map, HistoryMeaning::contact_map) |
                        bit(options.body_compliance.value_or(false), HistoryMeaning::body_compliance) |
                        bit(options.beyond_range == BeyondRange::crush, HistoryMeaning::crush) |
+                       bit(says_confinement(options), HistoryMeaning::confinement) |
                        bit(options.deformable_wall, HistoryMeaning::deformable_wall) |
                        bit(options.tangential_computed.value_or(false), HistoryMeaning::computed_stiffness),
                    options.stretch.value_or(1.0)};
@@ -178,12 +180,13 @@ void provide_observers(LAMMPS_NS::LAMMPS* lmp)
 }
 
 /// The fixes that come with our models.
-void provide_fixes(LAMMPS_NS::LAMMPS* lmp)
+void provide_fixes(LAMMPS_NS::LAMMPS* lmp, const Options& options)
 {
   provide_contact_histories(lmp);
   provide_step_fix(lmp);
   provide_observers(lmp);
   provide_runaway_fix(lmp);
+  provide_confinement(lmp, options);
 }
 
 }  // namespace
@@ -226,7 +229,7 @@ void CommandStyle::read(const CommandModels& models, int nargs, char** args,
   pointers.push_back(nullptr);
   call(static_cast<int>(rest.size()), pointers.data());
   refuse_other_histories(lmp_, setup_);
-  provide_fixes(lmp_);
+  provide_fixes(lmp_, setup_.options);
 }
 
 void CommandStyle::plan(const ModelInfo& normal, std::int64_t hash, int nargs, char** args)
@@ -239,12 +242,13 @@ void CommandStyle::begin_run(const std::function<void()>& init)
   guarded(lmp_, [&] {
     init();
     check_run(lmp_, setup_);
+    check_confinement(lmp_, setup_);
     warn_strong_cohesion(lmp_, setup_);
     warn_of_other_tangential(lmp_, setup_);
     if (setup_.wall)
       require_step_fix(lmp_);
     else
-      provide_fixes(lmp_);  // the box did not exist when pair_style stood before create_box
+      provide_fixes(lmp_, setup_.options);  // the box did not exist when pair_style stood before create_box
   });
 }
 

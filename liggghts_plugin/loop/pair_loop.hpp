@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "liggghts_plugin/confine/confinement.hpp"
 #include "liggghts_plugin/deck/session.hpp"
 #include "liggghts_plugin/engine/shapes.hpp"
 #include "liggghts_plugin/particles/bodies.hpp"
@@ -76,7 +77,10 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     copy_predefined_histories(pair);
     const bool observed = pair->evflag || (pair->cpl() && addflag) || pair->storeContactForces() ||
                           pair->storeContactForcesStress() || pair->store_sum_normal_force();
-    run_walk(pair, observed, addflag);
+    if (confinement_ && *confinement_) [[unlikely]]
+      confine(**confinement_, pair, observed, addflag);
+    else
+      run_walk(pair, observed, addflag);
     if (pair->cpl() && addflag) pair->cpl_pair_finalize();
     if (pair->storeContactForces()) pair->fix_contact_forces()->do_forward_comm();
     if (pair->storeContactForcesStress()) pair->fix_contact_forces_stress()->do_forward_comm();
@@ -102,6 +106,8 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   ContactModel& model() { return model_; }
   /// From where the masses of rigid bodies come.
   void set_bodies(const Bodies* bodies) { bodies_ = bodies; }
+  /// Who computes the forces in the place of this loop; null: nobody.
+  void set_confinement(Confinement* const* confinement) { confinement_ = confinement; }
 
  private:
   /// A neighbour that touches, or did one step ago.
@@ -182,17 +188,30 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
 #endif
     walk(pair, observed, addflag);
   }
+  Pass pass_of(PairGran* pair, bool observed, int addflag) const
+  {
+    return {.pair = pair,
+            .computeflag = pair->computeflag(),
+            .shearupdate = pair->shearupdate(),
+            .addflag = addflag,
+            .frozen = pair->freeze_group_bit(),
+            .rigid = pair->fr_pair() && bodies_ && bodies_->known(),
+            .newton = lmp_->force->newton_pair != 0,
+            .observed = observed};
+  }
+  /// The forces of `confinement on`.
+  [[gnu::noinline, gnu::cold]] void confine(Confinement& confinement, PairGran* pair, bool observed, int addflag)
+  {
+    const Pass pass = pass_of(pair, observed, addflag);
+    const Confinement::Observer tell = [&](SurfacesIntersectData& contact, const ForceData& on_i, const ForceData& on_j) {
+      tell_observers(pass, contact, on_i, on_j);
+    };
+    confinement.compute(*pair, observed ? &tell : nullptr);
+  }
   [[gnu::always_inline]] inline void walk_body(PairGran* pair, bool observed, int addflag)
   {
     const LAMMPS_NS::NeighList& list = *pair->list;
-    const Pass pass{.pair = pair,
-                    .computeflag = pair->computeflag(),
-                    .shearupdate = pair->shearupdate(),
-                    .addflag = addflag,
-                    .frozen = pair->freeze_group_bit(),
-                    .rigid = pair->fr_pair() && bodies_ && bodies_->known(),
-                    .newton = lmp_->force->newton_pair != 0,
-                    .observed = observed};
+    const Pass pass = pass_of(pair, observed, addflag);
     SurfacesIntersectData of_pass;
     ForceData on_i, on_j;
     of_pass.is_wall = false;
@@ -423,6 +442,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   LAMMPS* lmp_;
   ContactModel model_;
   const Bodies* bodies_ = nullptr;
+  Confinement* const* confinement_ = nullptr;
   std::vector<Candidate> candidates_;  // of walk(); kept for its memory
 };
 

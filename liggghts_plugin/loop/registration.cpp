@@ -147,6 +147,7 @@ std::string describe(const HistoryMeaning& meaning)
   if (combination & HistoryMeaning::contact_map) text += ", contactMap on";
   if (combination & HistoryMeaning::body_compliance) text += ", bodyCompliance on";
   if (combination & HistoryMeaning::crush) text += ", beyondRange crush";
+  if (combination & HistoryMeaning::confinement) text += ", confinement on";
   if (combination & HistoryMeaning::deformable_wall) text += ", wall deformable";
   if (combination & HistoryMeaning::computed_stiffness) text += ", tangentialStiffness computed";
   if (meaning.stretch > 1.0) text += fmt::format(", stretch {:g}", meaning.stretch);

@@ -36,6 +36,7 @@ class PairStyle final : public PairLoop<Contact>, public CommandStyle
     read<typename Contact::Physics>(this->hashcode(), nargs, args,
                                     [&](int n, char** words) { Base::settings(n, words, hsetup); });
     this->set_bodies(&setup().session->bodies);
+    this->set_confinement(says_confinement(setup().options) ? &setup().session->confinement : nullptr);
   }
 
   void init_granular() override
@@ -84,6 +85,7 @@ class WallStyle final : public WallLoop<Contact>, public CommandStyle
   {
     read<typename Contact::Physics>(hash_, nargs, args,
                                     [&](int n, char** words) { Base::settings(n, words, hsetup); });
+    this->set_confinement(says_confinement(setup().options) ? &setup().session->confinement : nullptr);
   }
 
   void init_granular() override

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "liggghts_plugin/confine/confinement.hpp"
 #include "liggghts_plugin/engine/shapes.hpp"
 
 namespace granulaw::plugin {
@@ -81,8 +82,11 @@ class WallLoop : public LIGGGHTS::Walls::IGranularWall
 
     const double overlap = contact.deltan;  // a body behind the contact takes a part of it
     ForceData on_i, on_wall;
-    contact.has_force_update = touches;
-    if (touches) {
+    if (confinement_ && *confinement_) [[unlikely]] {
+      const Confinement::AtWall now = (*confinement_)->at_wall(*wall, contact, wall_velocity, mesh_number, mesh ? mesh->id(triangle) : -1, on_i);
+      if (now == Confinement::AtWall::collected) return;
+      touches = contact.has_force_update = now == Confinement::AtWall::acts;
+    } else if (contact.has_force_update = touches; touches) {
       model_.surfacesIntersect(contact, on_i, on_wall);
       model_.endSurfacesIntersect(contact, mesh, on_i, on_wall);
     } else
@@ -119,6 +123,8 @@ class WallLoop : public LIGGGHTS::Walls::IGranularWall
 
  protected:
   ContactModel& model() { return model_; }
+  /// Who knows the forces in the place of this loop; null: nobody.
+  void set_confinement(Confinement* const* confinement) { confinement_ = confinement; }
 
   /// The overlap whose circle heat passes through, in LIGGGHTS's formula: area pi (R^2 - (R - overlap)^2). `overlap`: the geometric one.
   virtual double heat_overlap(const SurfacesIntersectData& contact, double overlap) const = 0;
@@ -177,6 +183,7 @@ class WallLoop : public LIGGGHTS::Walls::IGranularWall
   LAMMPS* lmp_;
   ContactModel model_;
   FixWallGran* parent_;
+  Confinement* const* confinement_ = nullptr;
 };
 
 }  // namespace granulaw::plugin

@@ -1,12 +1,10 @@
 #include "liggghts_plugin/run/contact_history.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <unordered_map>
-#include <unordered_set>
 
 #include "liggghts_plugin/deck/session.hpp"
 #include "liggghts_plugin/engine/fix_style.hpp"
+#include "liggghts_plugin/particles/number_changes.hpp"
 
 namespace granulaw::plugin {
 
@@ -16,20 +14,6 @@ template <class Style>
 LAMMPS_NS::Fix* make_fix(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
 {
   return new Style(lmp, narg, arg);
-}
-
-/// The numbers of all ranks, one rank's behind the other's. Collective.
-std::vector<int> gather(const std::vector<int>& own, MPI_Comm world)
-{
-  int ranks = 0, count = static_cast<int>(own.size());
-  MPI_Comm_size(world, &ranks);
-  std::vector<int> counts(static_cast<std::size_t>(ranks)), starts(counts.size(), 0);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
-  std::vector<int> all(static_cast<std::size_t>(starts.back() + counts.back()));
-  if (!all.empty())
-    MPI_Allgatherv(own.data(), count, MPI_INT, all.data(), counts.data(), starts.data(), MPI_INT, world);
-  return all;
 }
 
 }  // namespace
@@ -140,20 +124,14 @@ void PairHistory::follow_numbers()
     own.insert(own.end(), {number, atom->tag[i]});
     number = atom->tag[i];
   }
-  const std::vector<int> changed = gather(own, world);
-  if (changed.empty()) return;
-  std::unordered_map<int, int> now;
-  std::unordered_set<int> taken;
-  for (std::size_t k = 0; k < changed.size(); k += 2) {
-    if (changed[k] != 0) now[changed[k]] = changed[k + 1];
-    taken.insert(changed[k + 1]);
-  }
+  const NumberChanges changes(own, world);
+  if (changes.none()) return;
   for (int i = 0; i < atom->nlocal; ++i) {
     int kept = 0;
     for (int n = 0; n < npartner_[i]; ++n) {
-      const auto renamed = now.find(partner_[i][n]);
-      if (renamed == now.end() && taken.contains(partner_[i][n])) continue;
-      partner_[i][kept] = renamed == now.end() ? partner_[i][n] : renamed->second;
+      const int now = changes.now(partner_[i][n]);
+      if (now == 0) continue;
+      partner_[i][kept] = now;
       std::copy_n(contacthistory_[i] + n * dnum_, dnum_, contacthistory_[i] + kept++ * dnum_);
     }
     npartner_[i] = kept;

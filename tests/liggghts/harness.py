@@ -73,7 +73,7 @@ class Deck(InFolder):
         errors = [line for line in text.splitlines() if line.startswith("ERROR")]
         assert len(errors) == 1, text[-3000:]
         for part in parts:
-            assert part in errors[0]
+            assert part in errors[0], errors[0]
 
     def result(self, text, name):
         """The numbers behind `print "NAME ..."`."""

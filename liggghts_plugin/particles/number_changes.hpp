@@ -1,0 +1,27 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace granulaw::plugin {
+
+/// Particles whose numbers a command changed (delete_atoms, insertion with compress_tags), for those who name neighbours by number.
+class NumberChanges
+{
+ public:
+  /// `own`: old and new number of each particle of this rank whose number changed, in turn; old 0: it is new. Collective.
+  NumberChanges(const std::vector<int>& own, MPI_Comm world);
+
+  bool none() const { return taken_.empty(); }
+  /// The number now of what was `number`; 0: it was deleted, and another particle has its number.
+  int now(int number) const;
+
+ private:
+  std::unordered_map<int, int> now_;
+  std::unordered_set<int> taken_;
+};
+
+}  // namespace granulaw::plugin
