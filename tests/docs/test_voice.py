@@ -1,4 +1,4 @@
-"""Sentences of at most 25 words in pages and in the texts of `mpm`, and one term for one thing: pages use none of the house words that the glossary replaces.
+"""Sentences of at most 25 words in pages and in the texts of `mpm`, and one term for one thing: pages use none of the house words that CONTRIBUTING.md replaces.
 
     test_voice.py                    checks: no fault is allowed
     test_voice.py list [RULE [PATH]] prints what is found, one place a line
@@ -10,8 +10,8 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[2]
 WORDS = 25
 QUOTES, QUOTED_WORDS = "docs/evidence/liggghts-matrix.md", 30  # its cells quote messages with their lists of allowed words
-GLOSSARY = "docs/reference/glossary.md"
-# Of the first column of the glossary's Words: terms that mean nothing else in this field. Its ordinary words (share, slow, flat) are not looked for.
+GLOSSARY, REPLACED = "docs/reference/glossary.md", "CONTRIBUTING.md"  # pages that may have the old words: other names in files; the list of them
+# Of the first column of Words in CONTRIBUTING.md: terms that mean nothing else in this field. Its ordinary words (share, slow, flat) are not looked for.
 TERMS = ("stated error", "flatness", "flattening", "foot", "Hertz share", "twin", "stand-in", "main plane", "inertia axis", "speed axis", "at no rate", "rate-free", "thick wall", "half ball", "the book(?!s)")
 HOUSE = re.compile(rf"(?<![\w`-])(?:{'|'.join(TERMS)})s?(?![\w-])", re.IGNORECASE)
 FENCE = re.compile(r"^([ ]*)(```+|~~~+).*?^\1\2\s*$|\$\$.*?\$\$|<!--.*?-->", re.MULTILINE | re.DOTALL)
@@ -66,14 +66,14 @@ def of_file(name, text):
         for sentence in sentences(part):
             if words(sentence) > (QUOTED_WORDS if name == QUOTES else WORDS):
                 yield "long sentence", line, f"{words(sentence)} words: {sentence}"
-        for match in HOUSE.finditer(part) if name.endswith(".md") and name != GLOSSARY else ():
+        for match in HOUSE.finditer(part) if name.endswith(".md") and name not in (GLOSSARY, REPLACED) else ():
             yield "house word", line, f"{match[0]}: {part[:120]}"
 
 
 def main():
     given = sys.argv[2:] if sys.argv[1:2] == ["list"] else []
     files = sorted({*TOP.glob("*.md"), *TOP.glob("docs/**/*.md"), *TOP.glob("examples/**/*.md"), TOP / "tests/README.md", *TOP.glob("tools/mpm/*.cpp")})
-    replaced = (TOP / GLOSSARY).read_text().partition("## Words")[2]
+    replaced = (TOP / REPLACED).read_text().partition("## Words")[2]
     assert len(files) > 90 and all(re.search(term, replaced, re.IGNORECASE) for term in TERMS), (len(files), TERMS)
     for text, rule in (("Word " * 25 + "end.", "long sentence"), ("- " + "word\n  " * 26, "long sentence"), ("| a |\n|---|\n| " + "word " * 26 + "|", "long sentence"), ("| the foot |", "house word")):
         assert [found[0] for found in of_file("a.md", f"# A\n\n{text}\n")] == [rule], text
