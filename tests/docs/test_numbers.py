@@ -125,6 +125,21 @@ class Limits(unittest.TestCase):
         self.assertIn(f"agree within {largest:.1f} % of F and {max(float(row[4]) for row in runs)} of e", page("docs/evidence/particles.md"))
         self.assertIn(f"| F_max and e {largest:.1f} % (largest) | new runs |", self.PAGE)
 
+    def test_pressed_from_six_sides(self):
+        """The same three forces on the page of limits, of the atlas and in README."""
+        force = next(row[1:] for row in table_with(self.PAGE, "| overlap of each contact | 0.05 R | 0.1 R | 0.2 R |"))
+        self.assertIn(f"force {', '.join(force)} times the law's at 0.05, 0.1, 0.2 R", page("docs/evidence/atlas.md"))
+        for text in (self.PAGE, self.README, page("examples/compression/README.md")):
+            self.assertRegex(text, rf"\[?{re.escape(force[2])} times\b")
+
+    def test_stretch(self):
+        """What stretch changes in the hopper: coordination numbers of its table."""
+        row = next(row for table in tables(page("examples/hopper/README.md")) for row in table if row[0] == "coordination number" and len(row) == 6)
+        real, three, ten = (float(cell.split()[0]) for cell in row[1:4])
+        rise = [f"{100 * (x / real - 1):.0f}" for x in (three, ten)]
+        self.assertIn("rises by {} % at s = 3 and {} % at 10".format(*rise), page("docs/guide/plan.md"))
+        self.assertIn("rises by {} and {} %".format(*rise), page("examples/hopper/README.md"))
+
     def test_shapes(self):
         rows = {row[0].split()[0]: row for row in table_with(page("docs/evidence/shapes.md"), "| body, E\\*/Y = 100 |")}
         force, e = ({k: row[n].split(", ")[1] for k, row in rows.items()} for n in (2, 3))
