@@ -223,7 +223,7 @@ bool are_bodies(double radius_a, double radius_b, double m_eff)
 }
 
 /// Called for each contact and step: one branch.
-bool has_numbers(const granulaw_motion& m, double r_eff)
+[[gnu::always_inline]] inline bool has_numbers(const granulaw_motion& m, double r_eff)
 {
   const double normal = (m.normal[0] + m.normal[1]) + m.normal[2], slide = (m.slide[0] + m.slide[1]) + m.slide[2],
                rolling = (m.rolling[0] + m.rolling[1]) + m.rolling[2], rest = (m.overlap + m.approach) + m.dt;

@@ -10,7 +10,7 @@ STRESS = 0.1772, 0.2909, 0.4077, 0.5507, 0.7321, 1.0018  # over Y
 
 
 def test_thirty_spheres(here):
-    spheres = (ROOT / "tests/liggghts/packing_30.txt").read_text().replace("\n", " 1\n")
+    spheres = (ROOT / "examples/benchmark/bed_30.txt").read_text().replace("\n", " 1\n")
     Path("p.txt").write_text("# box 6.0061 6.0061 6.0061\n" + spheres)
     Path("m.toml").write_text(material("powder", 1000, "0.91e9", 0.3, "1e7"))
     run = answer("compact", "p.txt", "m.toml", "--friction", "0.3", "--cells", "8", "--rate", "0.001", "--density", "0.93", "--jobs", "2", "--json")

@@ -196,7 +196,7 @@ class TestPlasticShear(Deck):
 
     def pressed(self, tangential, friction):
         """T/F and stress over Y at DENSITIES of the packing, pressed from all sides at a rate of 0.001 c*/R."""
-        points = [[float(x) for x in line.split()] for line in pathlib.Path(__file__).with_name("packing_30.txt").read_text().splitlines()]
+        points = [[float(x) for x in line.split()] for line in (pathlib.Path(__file__).parents[2] / "examples/benchmark/bed_30.txt").read_text().splitlines()]
         side = (len(points) * 4 * math.pi / 3 / 0.58) ** (1 / 3) * R
         points = [[x * R % side for x in point] for point in points]
         rate, dt = 0.001 * math.sqrt(POWDER.e_star / POWDER.density) / R, 4e-9

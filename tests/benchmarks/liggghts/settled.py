@@ -35,7 +35,7 @@ import tempfile
 
 import loop
 
-PACKING = pathlib.Path(__file__).resolve().parents[2] / "liggghts" / "packing_30.txt"
+PACKING = pathlib.Path(__file__).resolve().parents[3] / "examples" / "benchmark" / "bed_30.txt"
 HOPPER = pathlib.Path(__file__).resolve().parents[3] / "examples" / "hopper"
 R, DENSITY, MODULUS = loop.RADIUS, loop.DENSITY, loop.E
 YIELD_STRESS = 2 * MODULUS / (1 - loop.NU**2) / math.pi / 1.6 * loop.ONSETS["mpm_soft"]**0.5  # thornton's onset is the law's
