@@ -73,6 +73,8 @@ int FixConfined::unpack(int i, const double* buffer)
   visit_numbers(p.law.state, read);
   p.law.sides.resize(static_cast<std::size_t>(sides)), p.links.resize(p.law.sides.size());
   for (SideState& side : p.law.sides) visit_numbers(side, read);
+  p.walls.resize(static_cast<std::size_t>(std::ranges::count_if(p.law.sides, [](const SideState& side) { return side.key < 0; })));
+  p.halves.resize(p.links.size());
   p.restored = false;
   return static_cast<int>(in - buffer);
 }
@@ -146,15 +148,16 @@ void FixConfined::write_sides(int i)
   int written = 0;
   for (std::size_t q = 0; q < p.links.size(); ++q) {
     const SideState& side = p.law.sides[q];
-    const Link& link = p.links[q];
     if (side.key < 0 || !(side.touched || side.force > 0)) continue;
     ++written;
     const Vector& n = side.cached_normal;  // the link of a particle that has just come in has none yet
     write(static_cast<double>(side.key), n[0], n[1], n[2]);
     if (sending_ == Sent::planes)
       write(answers[q].force * unit, std::max(answers[q].stiffness, least_stiffness) * stiffness_unit);
-    else
-      write(link.half.force[0], link.half.force[1], link.half.force[2], link.half.turn[0], link.half.turn[1], link.half.turn[2], link.half.arm);
+    else {
+      const Half& half = p.halves[q];
+      write(half.force[0], half.force[1], half.force[2], half.turn[0], half.turn[1], half.turn[2], half.arm);
+    }
   }
   row[0] = written;
 }

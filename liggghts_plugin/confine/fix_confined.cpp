@@ -168,7 +168,7 @@ void FixConfined::compute(PairGran& pair, const Observer* observer)
     collect(*pair.list);
     collect_walls();
     ghost_halves_.assign(static_cast<std::size_t>(comm_reverse * atom->nghost), 0.0);
-    for (int i = 0; i < nlocal; ++i) step(i, moves_planes);
+    for (int i = 0; i < nlocal; ++i) step(i, moves_planes, !walls_.empty());
     comm->reverse_comm_fix(this);
   }
   if (observer) observe(pair, *observer);
@@ -212,6 +212,7 @@ void FixConfined::remove_side(Particle& particle, int q, bool is_lost)
   if (is_lost && particle.law.sides[static_cast<std::size_t>(q)].force > 0) ++lost_;
   particle.law.remove(q);
   particle.links.erase(particle.links.begin() + q);
+  if (q < static_cast<int>(particle.walls.size())) particle.walls.erase(particle.walls.begin() + q);
 }
 
 void FixConfined::collect_walls()
@@ -232,8 +233,8 @@ Confinement::AtWall FixConfined::at_wall(const FixWallGran& wall, const ContactD
   if (!collecting_) {
     if (q < 0) return AtWall::open;
     const Link& link = p.links[static_cast<std::size_t>(q)];
-    const Half& half = link.half;
-    if (link.partner != triangle || !(norm(half.force) > 0)) return AtWall::open;
+    const Half& half = p.halves[static_cast<std::size_t>(q)];
+    if (link.partner != triangle || half.arm == 0.0) return AtWall::open;
     for (int c = 0; c < 3; ++c) on_i.delta_F[c] = half.force[c], on_i.delta_torque[c] = half.arm * half.turn[c];
     return AtWall::acts;
   }
@@ -242,12 +243,12 @@ Confinement::AtWall FixConfined::at_wall(const FixWallGran& wall, const ContactD
     if (!(contact.r < grown(i) + near * radius)) return AtWall::collected;
     q = p.law.insert(key, normal, 1.0 - contact.r / radius);
     p.links.insert(p.links.begin() + q, Link{});
+    p.walls.insert(p.walls.begin() + q, Wall{});
   }
-  Link& link = p.links[static_cast<std::size_t>(q)];
-  if (link.seen && link.distance <= contact.r) return AtWall::collected;  // another triangle of the plane is nearer
-  link.partner = triangle, link.slot = contact.jtype, link.seen = true;
-  link.distance = contact.r, link.normal = normal;
-  link.velocity = wall_velocity ? Vector{wall_velocity[0], wall_velocity[1], wall_velocity[2]} : Vector{};
+  Wall& now = p.walls[static_cast<std::size_t>(q)];
+  if (now.seen && now.distance <= contact.r) return AtWall::collected;  // another triangle of the plane is nearer
+  now = {true, contact.r, normal, wall_velocity ? Vector{wall_velocity[0], wall_velocity[1], wall_velocity[2]} : Vector{}};
+  p.links[static_cast<std::size_t>(q)] = {triangle, contact.jtype};
   return AtWall::collected;
 }
 
@@ -255,73 +256,78 @@ bool FixConfined::follow(int i, int q, bool moves_planes)
 {
   Particle& p = particle(i);
   SideState& side = p.law.sides[static_cast<std::size_t>(q)];
-  Link& link = p.links[static_cast<std::size_t>(q)];
+  const Link link = p.links[static_cast<std::size_t>(q)];
   const double radius = atom->radius[i];
   const bool is_wall = side.key < 0, is_new = side.distance == 0.0;
   const int j = link.partner;
-  if (is_wall ? !std::exchange(link.seen, false) : j < 0) {
+  if (is_wall ? !std::exchange(p.walls[static_cast<std::size_t>(q)].seen, false) : j < 0) {
     remove_side(p, q, true);
     return false;
   }
   double reach = grown(i), smaller = radius;
-  if (!is_wall) {
+  Contact now{.normal = {}, .distance = 0.0, .before = side.force};
+  if (is_wall)
+    now.normal = p.walls[static_cast<std::size_t>(q)].normal, now.distance = p.walls[static_cast<std::size_t>(q)].distance;
+  else {
     const double *const a = atom->x[i], *const b = atom->x[j];
     const Vector d{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    link.distance = norm(d), link.normal = times(d, 1.0 / link.distance);
+    now.distance = norm(d), now.normal = times(d, 1.0 / now.distance);
     reach += grown(j), smaller = std::min(radius, atom->radius[j]);
   }
-  if (link.distance > reach + far * smaller && !(side.force > 0)) {
+  if (now.distance > reach + far * smaller && !(side.force > 0)) {
     if (!is_wall) taken_[static_cast<std::size_t>(link.slot)] = 0;
     remove_side(p, q, false);
     return false;
   }
-  double way = is_new || !advances_ ? 0.0 : side.distance - link.distance, moved = 0.0;
+  double way = is_new || !advances_ ? 0.0 : side.distance - now.distance;
   if (!is_wall) way *= 0.5;
   if (advances_ && is_new) {  // what began with an overlap, inserted or read, is pressed there now
     way = std::max(side.overlap, 0.0) * radius;
     side.overlap = std::min(side.overlap, 0.0);
     begins_pressed_ |= way > 0.0;
   } else if (advances_ && !is_wall && !side.touched)
-    side.overlap = 1.0 - (0.5 * (link.distance + grown(i) - grown(j)) + way) / radius;
+    side.overlap = 1.0 - (0.5 * (now.distance + grown(i) - grown(j)) + way) / radius;
   if (moves_planes && !is_wall && !is_new) {
-    const double *const own = sent_side(i, side.key, link.normal), *const other = sent_side(j, atom->tag[i], times(link.normal, -1.0));
-    if (own) link.pressing = own[0] / force_unit(i);
+    const double *const own = sent_side(i, side.key, now.normal), *const other = sent_side(j, atom->tag[i], times(now.normal, -1.0));
+    if (own) now.before = own[0] / force_unit(i);
     if (own && other && (own[0] > 0 || other[0] > 0))
-      moved = std::clamp(plane_way(own[0], own[1], other[0], other[1]), -largest_way * smaller, largest_way * smaller);
+      now.way = std::clamp(plane_way(own[0], own[1], other[0], other[1]), -largest_way * smaller, largest_way * smaller);
   }
-  steps_.push_back({link.normal, (way + moved) / radius});
-  ways_.push_back(moved);
+  steps_.push_back({now.normal, (way + now.way) / radius});
+  contacts_.push_back(now);
   return true;
 }
 
-void FixConfined::step(int i, bool moves_planes)
+void FixConfined::step(int i, bool moves_planes, bool keeps_halves)
 {
   Particle& p = particle(i);
   if (p.links.empty()) return;
-  steps_.clear(), ways_.clear();
+  steps_.clear(), contacts_.clear();
   begins_pressed_ = false;
   const double dissipated = p.law.state.dissipated;
   for (int q = 0; q < static_cast<int>(p.links.size());)
     if (follow(i, q, moves_planes)) ++q;
+  if (keeps_halves) p.halves.resize(p.links.size());
+  if (p.links.empty()) return;
   const double held = begins_pressed_ ? p.law.state.dissipated + p.law.stored(body(i)) : 0.0;
   const std::span<const SideAnswer> answers = advances_ ? p.law.advance(body(i), steps_, room_) : p.law.answers(room_);
   const double unit = force_unit(i), energy = unit * atom->radius[i];
   double taken = (p.law.state.dissipated - dissipated) * energy, other = 0.0, paid = 0.0;
   p.area = 0.0;
-  for (int q = 0; q < static_cast<int>(p.links.size()); ++q) {
-    SideState& side = p.law.sides[static_cast<std::size_t>(q)];
-    Link& link = p.links[static_cast<std::size_t>(q)];
-    const SideAnswer& answer = answers[static_cast<std::size_t>(q)];
+  for (std::size_t q = 0; q < p.links.size(); ++q) {
+    SideState& side = p.law.sides[q];
+    const SideAnswer& answer = answers[q];
+    const Contact& contact = contacts_[q];
     p.area += answer.area;
-    const double mean = 0.5 * (std::exchange(link.pressing, answer.force) + answer.force);
-    taken -= mean * unit * ways_[static_cast<std::size_t>(q)];
-    if (begins_pressed_ && side.distance != 0.0) paid += mean * steps_[static_cast<std::size_t>(q)].advance;
-    if (advances_) side.distance = link.distance;
-    link.half = half_of(i, q, answer, other);
-    const Half& half = link.half;
+    const double mean = 0.5 * (contact.before + answer.force);
+    taken -= mean * unit * contact.way;
+    if (begins_pressed_ && side.distance != 0.0) paid += mean * steps_[q].advance;
+    if (advances_) side.distance = contact.distance;
+    const Half half = half_of(i, static_cast<int>(q), contact, answer, other);
+    if (keeps_halves) p.halves[q] = half;
     if (side.key < 0 || !(answer.force > 0)) continue;
     add_to(i, half.force, half.turn, half.arm);
-    add_to(link.partner, times(half.force, -1.0), half.turn, link.distance - half.arm);
+    add_to(p.links[q].partner, times(half.force, -1.0), half.turn, contact.distance - half.arm);
   }
   if (!advances_) return;
   ContactStatistics::Pair& counts = *counts_[static_cast<std::size_t>(atom->type[i])];
@@ -335,25 +341,25 @@ void FixConfined::step(int i, bool moves_planes)
   }
 }
 
-FixConfined::Half FixConfined::half_of(int i, int q, const SideAnswer& answer, double& work)
+FixConfined::Half FixConfined::half_of(int i, int q, const Contact& contact, const SideAnswer& answer, double& work)
 {
   Particle& p = particle(i);
   SideState& side = p.law.sides[static_cast<std::size_t>(q)];
-  const Link& link = p.links[static_cast<std::size_t>(q)];
-  const bool is_wall = side.key < 0;
-  const int j = link.partner;
-  const double radius = atom->radius[i], unit = force_unit(i), share = is_wall ? 1.0 : 0.5, arm = is_wall ? link.distance : (1.0 - side.overlap) * radius;
-  const Vector& n = link.normal;
   if (!(answer.force > 0)) {
     if (advances_) side.shear = {};
     return {};
   }
+  const Link link = p.links[static_cast<std::size_t>(q)];
+  const bool is_wall = side.key < 0;
+  const int j = link.partner;
+  const double radius = atom->radius[i], unit = force_unit(i), share = is_wall ? 1.0 : 0.5, arm = is_wall ? contact.distance : (1.0 - side.overlap) * radius;
+  const Vector& n = contact.normal;
   const double friction = friction_ ? friction_[atom->type[i]][is_wall ? link.slot : atom->type[j]] : 0.0;
   if (friction > 0 && advances_) {
     const auto surface = [&](int k, double lever) {  // of k's surface at the contact, n the way to it
       return sum(Vector{atom->v[k][0], atom->v[k][1], atom->v[k][2]}, cross(atom->omega[k], n), lever);
     };
-    Vector slide = sum(surface(i, arm), is_wall ? link.velocity : surface(j, arm - link.distance), -1.0);
+    Vector slide = sum(surface(i, arm), is_wall ? p.walls[static_cast<std::size_t>(q)].velocity : surface(j, arm - contact.distance), -1.0);
     slide = times(sum(slide, n, -dot(slide, n)), update->dt / radius);
     const Vector before = side.shear;
     advance_shear(side, answer, n, slide, friction, share);
@@ -370,21 +376,41 @@ void FixConfined::add_to(int i, const Vector& force, const Vector& turn, double 
   for (int c = 0; c < 3; ++c) f[c] += force[c], torque[c] += arm * turn[c];
 }
 
+void FixConfined::find_halves(int i)
+{
+  Particle& p = particle(i);
+  p.halves.resize(p.links.size());
+  if (p.links.empty()) return;
+  advances_ = false;
+  const std::span<const SideAnswer> answers = p.law.answers(room_);
+  double work = 0.0;
+  for (std::size_t q = 0; q < p.links.size(); ++q) {
+    const int j = p.links[q].partner;
+    if (p.law.sides[q].key < 0 || j < 0) continue;
+    const double *const a = atom->x[i], *const b = atom->x[j];
+    const Vector way{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    p.halves[q] = half_of(i, static_cast<int>(q), {.normal = granulaw::unit(way), .distance = norm(way), .before = 0.0}, answers[q], work);
+  }
+}
+
 void FixConfined::observe(PairGran& pair, const Observer& observer)
 {
   const int nlocal = atom->nlocal;
+  for (int i = 0; i < nlocal; ++i) find_halves(i);
   send(Sent::halves);
   std::vector<double> history(static_cast<std::size_t>(pair.dnum()), 0.0);
   int flags = 0;
   for (int i = 0; i < nlocal; ++i)
     for (std::size_t q = 0; q < particle(i).links.size(); ++q) {
-      const Link& link = particle(i).links[q];
-      const int j = link.partner;
+      const int j = particle(i).links[q].partner;
       if (particle(i).law.sides[q].key < 0 || j < 0 || (j < nlocal && j < i)) continue;
+      const double *const a = atom->x[i], *const b = atom->x[j];
+      const Vector way{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, normal = granulaw::unit(way);
+      const double distance = norm(way);
       Half other;
-      if (const double* sent = sent_side(j, atom->tag[i], times(link.normal, -1.0)))
+      if (const double* sent = sent_side(j, atom->tag[i], times(normal, -1.0)))
         other = {{sent[0], sent[1], sent[2]}, {sent[3], sent[4], sent[5]}, sent[6]};
-      const Half& own = link.half;
+      const Half& own = particle(i).halves[q];
       if (own.arm == 0.0 && other.arm == 0.0) continue;
       ContactData contact;
       ForceData on_i, on_j;
@@ -393,13 +419,13 @@ void FixConfined::observe(PairGran& pair, const Observer& observer)
       contact.i = i, contact.j = j, contact.itype = atom->type[i], contact.jtype = atom->type[j];
       contact.radi = atom->radius[i], contact.radj = atom->radius[j], contact.radsum = contact.radi + contact.radj;
       contact.v_i = atom->v[i], contact.v_j = atom->v[j], contact.omega_i = atom->omega[i], contact.omega_j = atom->omega[j];
-      contact.r = link.distance, contact.rsq = contact.r * contact.r, contact.rinv = 1.0 / contact.r, contact.deltan = contact.radsum - contact.r;
+      contact.r = distance, contact.rsq = contact.r * contact.r, contact.rinv = 1.0 / contact.r, contact.deltan = contact.radsum - contact.r;
       contact.contact_history = history.data(), contact.contact_flags = &flags, contact.area_ratio = 1.0;
       for (int c = 0; c < 3; ++c) {
-        contact.en[c] = -link.normal[c], contact.delta[c] = contact.r * contact.en[c];
+        contact.en[c] = -normal[c], contact.delta[c] = contact.r * contact.en[c];
         on_i.delta_F[c] = own.force[c] - other.force[c], on_j.delta_F[c] = -on_i.delta_F[c];
-        on_i.delta_torque[c] = own.arm * own.turn[c] + (other.arm > 0 ? link.distance - other.arm : 0.0) * other.turn[c];
-        on_j.delta_torque[c] = other.arm * other.turn[c] + (own.arm > 0 ? link.distance - own.arm : 0.0) * own.turn[c];
+        on_i.delta_torque[c] = own.arm * own.turn[c] + (other.arm > 0 ? distance - other.arm : 0.0) * other.turn[c];
+        on_j.delta_torque[c] = other.arm * other.turn[c] + (own.arm > 0 ? distance - own.arm : 0.0) * own.turn[c];
       }
       observer(contact, on_i, on_j);
     }
@@ -414,8 +440,9 @@ double FixConfined::compute_vector(int n)
     if (n == 1) own += p.law.state.closed;
     if (n == 2) own = std::max(own, p.law.state.grown_radius);
     for (std::size_t q = 0; n > 2 && q < p.links.size(); ++q) {
-      const Link& link = p.links[q];
-      if (p.law.sides[q].key > 0 && link.partner >= 0 && link.half.arm > 0) own += n == 3 ? 0.5 : 0.5 * (link.distance > atom->radius[i] + atom->radius[link.partner]);
+      const SideState& side = p.law.sides[q];
+      const int j = p.links[q].partner;
+      if (side.key > 0 && j >= 0 && side.force > 0) own += n == 3 ? 0.5 : 0.5 * (side.distance > atom->radius[i] + atom->radius[j]);
     }
   }
   MPI_Allreduce(&own, &all, 1, MPI_DOUBLE, n == 2 ? MPI_MAX : MPI_SUM, world);

@@ -60,26 +60,37 @@ class FixConfined final : public LAMMPS_NS::Fix, public Confinement
     Vector turn{};   // N, n x T: torque over the arm, on either
     double arm = 0;  // m, from the particle's centre to the contact
   };
-  /// A side's neighbour as this rank has it; follows from the rest.
+  /// A side's neighbour as this rank has it; follows from the rest. Small: a step reads those of all particles.
   struct Link
   {
-    int partner = -1;     // index of the neighbour; of a wall: its triangle
-    int slot = -1;        // place of the pair in the neighbour list
-    bool seen = false;    // a wall's loop has found it in this step
-    double distance = 0;  // to the wall
-    Vector normal{};      // outward
-    Vector velocity{};    // of the wall
-    double pressing = 0;  // the side's whole force, over Y R^2
-    Half half{};
+    int partner = -1;  // index of the neighbour; of a wall: its triangle
+    int slot = -1;     // place of the pair in the neighbour list; of a wall: its type
+  };
+  /// A wall as its loop found it in this step.
+  struct Wall
+  {
+    bool seen = false;
+    double distance = 0;
+    Vector normal{}, velocity{};
+  };
+  /// A side in the step of its particle.
+  struct Contact
+  {
+    Vector normal;    // outward
+    double distance;  // of the centres, or to the wall
+    double way = 0;   // m, of the plane between two particles
+    double before;    // force before the step, over Y R^2
   };
   struct Particle
   {
     ConfinedParticle law;
-    std::vector<Link> links;  // of law.sides
-    double reach = 1;         // grown radius that others have
-    double area = 0;          // of all faces, over R^2
-    int number = 0;           // the particle's, when its sides were named
-    bool restored = true;     // the law's caches follow from its state
+    std::vector<Link> links;   // of law.sides
+    std::vector<Wall> walls;   // of the first sides: keys of walls are negative
+    std::vector<Half> halves;  // of law.sides, of a step with walls, or as find_halves() left them
+    double reach = 1;          // grown radius that others have
+    double area = 0;           // of all faces, over R^2
+    int number = 0;            // the particle's, when its sides were named
+    bool restored = true;      // the law's caches follow from its state
   };
   /// What ghosts get: reach_; of each side its full force and stiffness, or its half. Sides go in parts, so that the buffers are small.
   enum class Sent { reach, planes, halves };
@@ -106,11 +117,13 @@ class FixConfined final : public LAMMPS_NS::Fix, public Confinement
   void collect_walls();
   void add_side(int i, int j, int slot, const Vector& normal, double distance);
   void remove_side(Particle& particle, int q, bool is_lost);
-  void step(int i, bool moves_planes);
+  void step(int i, bool moves_planes, bool keeps_halves);
   bool follow(int i, int q, bool moves_planes);
   /// Adds to `work` what the tangential force took, J.
-  Half half_of(int i, int q, const SideAnswer& answer, double& work);
+  Half half_of(int i, int q, const Contact& contact, const SideAnswer& answer, double& work);
   void add_to(int i, const Vector& force, const Vector& turn, double arm);
+  /// Halves of contacts between particles as they are.
+  void find_halves(int i);
   void observe(PairGran& pair, const Observer& observer);
   void write_rows();
 
@@ -137,7 +150,7 @@ class FixConfined final : public LAMMPS_NS::Fix, public Confinement
   std::vector<char> taken_;           // of each slot of the neighbour list: all owners have the side
   std::vector<double> sent_;          // of each particle and ghost: number of its sides, and columns_ numbers of each
   std::vector<SideStep> steps_;
-  std::vector<double> ways_;  // m, of planes in this step
+  std::vector<Contact> contacts_;  // of the particle at hand, as steps_
   ConfinedRoom room_;
   Sent sending_ = Sent::reach;
   int columns_ = 0, row_ = 0, part_ = 0;  // of sent_; the part on its way

@@ -503,7 +503,7 @@ class ElementHost : public ContactInquiry
     const double speed = approach(sidata);
     entry.counts->overlap_max = std::max(entry.counts->overlap_max, sidata.deltan / r_eff);
     stop_one(lmp_, fmt::format("{}: overlap/R* {:.4g} of types {} and {} {} {:.4g} m/s is more than 5 % beyond "
-                              "the law's table, which ends at {:.4g}{}, or say 'beyondRange crush'",
+                              "the law's table, which ends at {:.4g}{}, or say 'beyondRange crush', or 'confinement on' for a pressed bed",
                               setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype,
                               speed < 0 ? "parting at" : "at", std::abs(speed), entry.largest_overlap,
                               remedy(entry, sidata.deltan / r_eff)));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -179,7 +180,36 @@ struct ShearAnswer
 /// Tangential spring of a side that flows with its normal force: T <- T/(1 + 6 k_t v/F), v the plastic part of the advance, cut at
 /// friction times share F. It keeps T in `side.shear`. `slide`: of the particle's surface against the neighbour's, over R; `share`:
 /// of the contact's force that is this side's, 1/2; 1: a wall.
-ShearAnswer advance_shear(SideState& side, const SideAnswer& now, const Vector& normal, const Vector& slide, double friction, double share);
+inline ShearAnswer advance_shear(SideState& side, const SideAnswer& now, const Vector& normal, const Vector& slide, double friction, double share)
+{
+  constexpr double of_normal = 0.82;  // k_t over k_n: Mindlin at nu = .3
+  constexpr double flow_ratio = 6.0;  // yield at F^2 + 6 T^2: docs/theory/confined.md
+  ShearAnswer answer;
+  const double force = share * now.force;
+  const auto energy = [&](const Vector& t) { return side.shear_stiffness > 0 ? 0.5 * dot(t, t) / side.shear_stiffness : 0.0; };
+  if (!(force > 0)) {
+    answer.friction = energy(side.shear);
+    side.shear = {};
+    return answer;
+  }
+  const double held = energy(side.shear);
+  side.shear_stiffness = std::max(side.shear_stiffness, of_normal * share * share * now.stiffness);
+  answer.flow = held - energy(side.shear);  // stiffer at constant force
+  const Vector in_face = sum(slide, normal, -dot(slide, normal));
+  Vector t = sum(sum(side.shear, normal, -dot(side.shear, normal)), in_face, -side.shear_stiffness);
+  if (now.flow > 0) {
+    const double part = 1.0 / (1.0 + flow_ratio * side.shear_stiffness * (now.flow / share) / force);
+    answer.flow += energy(t) * (1.0 - part * part);
+    t = times(t, part);
+  }
+  if (const double size = norm(t), most = friction * force; size > most) {
+    const double part = most / size;
+    answer.friction = energy(t) * (1.0 - part * part);
+    t = times(t, part);
+  }
+  side.shear = answer.force = t;
+  return answer;
+}
 
 /// Way by which the plane between two bodies moves into A (and out of B), so that their forces become equal. Forces and elastic
 /// stiffnesses in one unit, stiffnesses > 0. It only loses energy. Every 20 to 100 steps.
