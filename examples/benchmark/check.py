@@ -11,6 +11,9 @@ import math
 import pathlib
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "common"))
+import one_sentence  # noqa: E402, F401
+
 HERE = pathlib.Path(__file__).resolve().parent
 
 

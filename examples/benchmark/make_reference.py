@@ -11,8 +11,11 @@ import csv
 import json
 import pathlib
 import subprocess
+import sys
 
-import numpy as np
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "common"))
+import one_sentence  # noqa: E402, F401
+import numpy as np  # noqa: E402
 from run import DEPTHS, HERE, R, SPEEDS, program
 
 OBLIQUE = {20: (0.510, 0.608, 0.343), 60: (0.456, 0.758, 1.022)}  # friction 0.3

@@ -13,6 +13,9 @@ import shutil
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "common"))
+import one_sentence  # noqa: E402, F401
+
 HERE = pathlib.Path(__file__).resolve().parent
 MATERIALS = {"wax": (920.0, 91e6, 0.3, 1e6), "hard_wax": (920.0, 91e6, 0.3, 1e6), "resin": (1200.0, 500e6, 0.3, 20e6)}  # density, E, nu, Y
 R, SMALL, RIGID, FRICTION = 3e-3, 1.2e-3, 1e16, 0.3

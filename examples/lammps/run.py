@@ -11,8 +11,10 @@ import shutil
 import subprocess
 import sys
 
-import matplotlib
-import numpy as np
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "common"))
+import one_sentence  # noqa: E402, F401
+import matplotlib  # noqa: E402
+import numpy as np  # noqa: E402
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
