@@ -85,7 +85,8 @@ RunResult press_by_law(const PairLaw& wall, double radius, const PressPlan& plan
       if (plan.planes[k].speed > 0 && sphere.forces()[k] > 0) return true;
     return false;
   };
-  while (now > 0 && pressed()) {
+  for (int after = 10; now > 0 && after > 0;) {  // the centre comes to rest
+    if (!pressed()) --after;
     go(-back);
     now -= back, time += ramp * back / depth;
     if (sphere.forces()[0] > 0) ended = now;
