@@ -214,10 +214,11 @@ inline constexpr auto quantities = [] {
       energy(&Pair::other_work, "other_work_J", 14, 3),
   };
   auto next = all.begin() + 2;
+  constexpr int crush = 20;      // that place is crush_dissipation_J's
   int vector = 18, column = 7;  // places that further mechanisms take from here on
   for (const MechanismText& m : mechanisms)
     if (m.in_statistics && m.which != Mechanism::plastic)
-      *next++ = energy(m.which, m.key, vector++, column++);
+      *next++ = energy(m.which, m.key, vector == crush ? ++vector : vector, column++), ++vector;
   std::ranges::copy(counts, next);
   return all;
 }();

@@ -111,6 +111,7 @@ class ElementHost : public ContactInquiry
     pairs_.resolve(physics_, *setup_, types, sizes, tangential, damping_ratios(registry, *setup_, types));
     Bodies::provide(lmp_, pairs_.needs_mass() || behind_offset_ >= 0);
     pairs_.enter(lmp_, physics_, *setup_, types, sizes);
+    if constexpr (requires { Beside::range_property; }) check_beside(types, sizes);
     // 1 %: neighbours are those of the step before
     if constexpr (Element::has_beside) lmp_->neighbor->register_contact_dist_factor(1.01 + pairs_.largest_reach(sizes, setup_->wall));
     if constexpr (has_rows) ParticleColumns::provide(lmp_, rows_of_beside);
@@ -153,8 +154,8 @@ class ElementHost : public ContactInquiry
     Caller<Others> caller{*this, contact, entry, moves, history, on_i, on_j, beside, ledger};
     const ContactForce force = entry.element.touch(moves, history, ledger, caller);
     add_shear(contact, *lmp_->atom, force.shear, contact.cri - shorter, on_i, on_j);
+    if constexpr (Element::deepens || Element::has_beside) add_normal(contact, force.normal - caller.pushed, on_i, on_j);
     if constexpr (Element::deepens) {
-      add_normal(contact, force.normal - caller.pushed, on_i, on_j);
       add_couple(contact, force.couple, on_i, on_j);
       if (advances) counts_.reach_further(contact, entry, r_eff);
     }
@@ -173,7 +174,7 @@ class ElementHost : public ContactInquiry
     if (contact.contact_flags) *contact.contact_flags &= ~CONTACT_NORMAL_MODEL;
     if (!contact.contact_history) return;
     double* const history = history_of(contact.contact_history);
-    if (!Element::has_beside && State::largest(history) == 0.0) return;  // near neighbours that never touched: leave their cache lines alone
+    if (State::largest(history) == 0.0 && !holds(history)) return;  // near neighbours that never touched: leave their cache lines alone
     if (books_later_) settle(entry_of(contact), effective_radius(contact), counts_.weight(contact), contact.contact_history);
     std::fill_n(history, Element::values, 0.0);
     counts_.forget(contact.contact_history);
@@ -182,7 +183,10 @@ class ElementHost : public ContactInquiry
   }
 
   /// For EnergyTally::account: a contact that has no force of the element's, over a gap.
-  void book_gap(const SurfacesIntersectData& contact) const { energy_->booked = {.counts = entry_of(contact).counts}; }
+  void book_gap(const SurfacesIntersectData& contact) const
+  {
+    if constexpr (!Element::has_beside) energy_->booked = {.counts = entry_of(contact).counts};
+  }
 
   ContactState state(const ContactPlace& contact) const override
   {
@@ -283,6 +287,29 @@ class ElementHost : public ContactInquiry
     }
   }
 
+  /// Refuses surfaces for which the piece is not made, and what it does not go with.
+  void check_beside(const Types& types, const ParticleSizes& sizes) const
+  {
+    for (const auto& [offset, word] : {std::pair(behind_offset_, "bodyCompliance on"), std::pair(crushed_offset_, "beyondRange crush")})
+      if (offset >= 0) fail(setup_->where, fmt::format("'cohesion dent' is not made for '{}'", word));
+    const double gravity = gravity_of(lmp_);
+    pairs_.check_beside(*setup_, types, sizes, [&, this](const Element& element, int i, int j, double r_eff, double m_eff) {
+      const double work = element.beside.length_of_w;
+      if (!(work >= 0.0 && std::isfinite(work))) return fmt::format("'{}' must be 0 or more", Beside::property);
+      const double range = pair_number(lmp_, Beside::range_property, i, j, Beside::usual_range / units_.length) * units_.length;
+      if (!(range > 0.0)) return fmt::format("'{}' must be over 0", Beside::range_property);
+      const double bond = element.beside.smooth_pull_off(element.normal, r_eff) / (m_eff * gravity);  // of the stretched contact
+      if (bond < 1.0 && bond * stretch_ >= 1.0)
+        return fmt::format("the pull-off force is {:.3g} of the weight, with 'stretch {:g}' {:.3g}: particles that stick would fall off; at most "
+                           "'stretch {:.3g}' here", bond * stretch_, stretch_, bond, bond * stretch_);
+      return element.beside.fault(element.normal, r_eff, range);
+    });
+  }
+  static bool holds([[maybe_unused]] const double* history)
+  {
+    if constexpr (Element::has_beside) return Beside{}.holds(history + Element::beside_at);
+    return false;
+  }
   /// Forces over a gap. True: the contact goes on.
   bool acts_across_gap(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j)
   {
@@ -300,6 +327,7 @@ class ElementHost : public ContactInquiry
     Ledger ledger;
     const double force = element.advance(moves, history, ledger).normal;
     if (moves.advances) counts_.book(contact, entry, ledger);
+    if (energy_) energy_->booked = {.counts = entry.counts, .work = ledger[Mechanism::adhesion]};
     if (force != 0.0) add_normal(contact, force, on_i, on_j), contact.has_force_update = true;
     return element.beside.holds(history + Element::beside_at);
   }
@@ -450,7 +478,7 @@ class ElementHost : public ContactInquiry
       booked.law_force_after = law.force(r_eff, delta, now, latched, history + State::own) * share;
       booked.deepened = ledger[Mechanism::plastic] - by_law + stored - law.stored_energy(r_eff, delta, depth, latched);
     }
-    booked.work = booked.deepened + ledger[Mechanism::waves] + ledger[Mechanism::shear];
+    booked.work = booked.deepened + ledger[Mechanism::waves] + ledger[Mechanism::shear] + ledger[Mechanism::adhesion];
     const int nlocal = lmp_->atom->nlocal;
     energy_->share(contact, EnergyTally::dissipated, ledger[Mechanism::plastic], nlocal);
     if (contact.computeflag)

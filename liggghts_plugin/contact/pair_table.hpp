@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -114,6 +116,24 @@ class PairTable
           largest = std::max(largest, usual_entry(i, j).element.beside.reach(r_eff) / (r_i + r_j));
       }
     return largest;
+  }
+
+  /// Throws Error where the piece beside the laws does not hold for the smallest particles that can meet. `fault`: of the element's
+  /// normal law and piece, of types i and j and R*; a sentence.
+  template <class Fault>
+  void check_beside(const Setup& setup, const Types& types, const ParticleSizes& sizes, Fault&& fault) const
+  {
+    const bool is_wall = setup.wall != nullptr;
+    for (int i = 1; i < stride_; ++i)
+      for (int j = 1; j < stride_; ++j) {
+        const Smallest spheres = smallest(sizes, i, is_wall ? 0 : j);
+        if (!types.can_meet(i, j, is_wall) || !(spheres.r_eff > 0.0)) continue;
+        each_entry_in_use(i, j, sizes, [&](const Entry& entry, std::size_t) {
+          if (entry.largest_overlap < 0.0) return;
+          if (const std::string why = fault(entry.element, i, j, spheres.r_eff, spheres.m_eff); !why.empty())
+            fail(setup.where, fmt::format("types {} and {}{}, R* {:.3g}: {}", i, j, is_wall ? " (wall)" : "", spheres.r_eff, why));
+        });
+      }
   }
 
   /// True if the law of any pair requires the mass of the bodies.

@@ -67,7 +67,7 @@ inline constexpr std::array<std::string_view, 5> model_kinds{"model", "tangentia
 
 /// Models of LIGGGHTS that stand beside a normal model of ours (contact_pieces.cpp), and the tangential law of model mpm alone.
 inline constexpr std::array<std::string_view, 3> tangential_models{"off", "history", "no_history"};
-inline constexpr std::string_view own_tangential_model = "plastic";
+inline constexpr std::string_view own_tangential_model = "plastic", own_cohesion_model = "dent";
 inline constexpr std::array<std::string_view, 5> cohesion_models{"off", "sjkr", "sjkr2", "easo/capillary/viscous", "washino/capillary/viscous"};
 inline constexpr std::array<std::string_view, 5> rolling_models{"off", "cdt", "epsd", "epsd2", "epsd3"};
 inline constexpr std::array<std::string_view, 2> surface_models{"default", "superquadric"};

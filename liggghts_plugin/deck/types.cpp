@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "fix_gravity.h"
+#include "fix_property_global.h"
 #include "fix_template_sphere.h"
 #include "liggghts_plugin/deck/particle_sizes.hpp"
 #include "liggghts_plugin/deck/session.hpp"
@@ -106,6 +108,29 @@ std::vector<double> damping_ratios(PropertyRegistry& registry, const Setup& setu
       ratios[static_cast<std::size_t>(i * stride + j)] = loss / std::hypot(loss, M_PI);
     }
   return ratios;
+}
+
+double pair_number(LAMMPS_NS::LAMMPS* lmp, const char* name, int i, int j, double otherwise)
+{
+  const int types = lmp->atom->ntypes;
+  if (auto* all = lmp->modify->find_fix_property(name, "property/global", "scalar", 0, 0, "granulaw", false)) return all->compute_scalar();
+  if (auto* each = lmp->modify->find_fix_property(name, "property/global", "peratomtypepair", types, types, "granulaw", false))
+    return each->compute_array(i - 1, j - 1);
+  return otherwise;
+}
+
+double gravity_of(LAMMPS_NS::LAMMPS* lmp)
+{
+  double sum = 0.0;
+  for (int k = 0; k < lmp->modify->nfix; ++k) {
+    auto* gravity = dynamic_cast<LAMMPS_NS::FixGravity*>(lmp->modify->fix[k]);
+    if (!gravity) continue;
+    double g[3];
+    gravity->init();  // it has no value before
+    gravity->get_gravity(g);
+    sum += std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  }
+  return sum;
 }
 
 }  // namespace granulaw::plugin

@@ -40,4 +40,9 @@ void refuse_unstated_restitution(LAMMPS_NS::LAMMPS* lmp, const Setup& setup);
 /// The damping ratio Z of each pair of types, at [i * (count + 1) + j].
 std::vector<double> damping_ratios(PropertyRegistry& registry, const Setup& setup, const Types& types);
 
+/// The deck's number NAME of types i and j, a property/global scalar or peratomtypepair; `otherwise` where it has none.
+double pair_number(LAMMPS_NS::LAMMPS* lmp, const char* name, int i, int j, double otherwise);
+/// m/s^2 in the deck's units; 0: there is no fix gravity.
+double gravity_of(LAMMPS_NS::LAMMPS* lmp);
+
 }  // namespace granulaw::plugin

@@ -93,10 +93,25 @@ void refuse_no_friction(const CommandModels& models, const Setup& setup, const W
     fail(setup.where, "'tangential no_history' without tangential damping has no friction at all");
 }
 
+/// sjkr and its like, whose pull goes with cohesionEnergyDensity or a liquid: LIGGGHTS's ids end at 12.
+bool is_liggghts_cohesion(const ModelIds& ids) { return ids.cohesion != cm::COHESION_OFF && ids.cohesion <= 12; }
+
+/// One and the same deck would have two adhesions.
+void refuse_two_cohesions(const Setup& setup)
+{
+  const auto pair = setup.session->meanings.find(pairs_record);
+  if (!setup.wall || pair == setup.session->meanings.end()) return;
+  const ModelIds here = ModelIds::of(setup.meaning.combination), there = ModelIds::of(pair->second.combination);
+  for (const auto& [one, other] : {std::pair(here, there), std::pair(there, here)})
+    if (is_liggghts_cohesion(one) && other.cohesion != cm::COHESION_OFF && !is_liggghts_cohesion(other))
+      fail(setup.where, fmt::format("the deck has both '{}' and '{}', between particles and with walls: choose one of them",
+                                    describe_pieces({0, 0, here.cohesion, 0, 0}).substr(1), describe_pieces({0, 0, there.cohesion, 0, 0}).substr(1)));
+}
+
 void warn_stretched_cohesion(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models, const Setup& setup)
 {
   const double s = setup.options.stretch.value_or(1.0);
-  if (models.ids.cohesion == cm::COHESION_OFF || s <= 1.0) return;
+  if (!is_liggghts_cohesion(models.ids) || s <= 1.0) return;
   if (!setup.session->first_time("stretched cohesion") || lmp->comm->me != 0) return;
   lmp->error->warning(
       FLERR,
@@ -109,7 +124,7 @@ void warn_stretched_cohesion(LAMMPS_NS::LAMMPS* lmp, const CommandModels& models
 /// Cohesion pulls in proportion to the area of contact, and so does plastic flow push: 2.8 Y.
 void warn_strong_cohesion(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
 {
-  if (setup.wall || !setup.law || ModelIds::of(setup.meaning.combination).cohesion == cm::COHESION_OFF) return;
+  if (setup.wall || !setup.law || !is_liggghts_cohesion(ModelIds::of(setup.meaning.combination))) return;
   const int types = lmp->atom->ntypes;
   LAMMPS_NS::Fix* density = lmp->modify->find_fix_property("cohesionEnergyDensity", "property/global", "peratomtypepair",
                                                            types, types, setup.where.c_str(), false);
@@ -245,6 +260,7 @@ void CommandStyle::begin_run(const std::function<void()>& init)
     check_confinement(lmp_, setup_);
     warn_strong_cohesion(lmp_, setup_);
     warn_of_other_tangential(lmp_, setup_);
+    refuse_two_cohesions(setup_);
     if (setup_.wall)
       require_step_fix(lmp_);
     else

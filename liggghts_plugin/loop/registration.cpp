@@ -55,6 +55,10 @@ std::map<int, OwnPiece>& own_pieces()
 [[noreturn]] void refuse(LAMMPS* lmp, int64_t hash)
 {
   const ModelIds ids = ModelIds::of(hash);
+  const auto tangential_piece = own_pieces().find(ids.tangential), beside = own_pieces().find(ids.cohesion);
+  if (tangential_piece != own_pieces().end() && beside != own_pieces().end())
+    stop_all(lmp, fmt::format("'{}' and '{}' do not go together: shear would have to pay for the surfaces that it parts; say 'tangential history'",
+                              tangential_piece->second.name, beside->second.name));
   for (const auto& [id, piece] : own_pieces()) {
     if (ids.*piece.place != id) continue;
     const ModelInfo* model = find_model(piece.normal);
@@ -101,6 +105,15 @@ bool takes_own(const ModelIds& ids, int ModelIds::*place)
 
 void refuse_other_normals(const std::string& name, int id, int ModelIds::*place, int normal)
 {
+  for (const auto& [other, piece] : own_pieces())
+    if (piece.place != place)
+      each_combination(normal, [&, other = other, at = piece.place](ModelIds ids) {
+        if (ids.*place != 0 || ids.*at != 0) return;
+        ids.*place = id, ids.*at = other;
+        const int hash = static_cast<int>(ids.hash());
+        lg::PairStyles::Factory::instance().addStyle("gran", hash, &refuse_pair);
+        lg::Walls::Factory::instance().addStyle("gran", hash, &refuse_wall);
+      });
   own_pieces()[id] = {(place == &ModelIds::tangential ? "tangential " : "cohesion ") + name, place, normal};
   constexpr int last_normal = 63;  // six bits
   for (int other = 1; other <= last_normal; ++other)

@@ -14,6 +14,7 @@
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "c/law_handle.hpp"
+#include "contact/adhesion.hpp"
 #include "contact/damping.hpp"
 #include "contact/element.hpp"
 #include "contact/plastic_shear.hpp"
@@ -40,8 +41,8 @@ struct SizedLaw
   Element element;
   double largest_overlap;  // over R*
 };
-template <class Tangential>
-using SizedLaws = std::vector<SizedLaw<ContactElement<Tabulated, Tangential>>>;
+template <class Tangential, class Beside = NothingBeside>
+using SizedLaws = std::vector<SizedLaw<ContactElement<Tabulated, Tangential, Beside>>>;
 
 }  // namespace
 
@@ -52,14 +53,17 @@ struct granulaw_contact_law
   Scale scale;
   SizeChoice choice;
   LawFinder finder;
-  std::variant<SizedLaws<Frictionless>, SizedLaws<Spring>, SizedLaws<PlasticShear>> laws;
+  std::variant<SizedLaws<Frictionless>, SizedLaws<Spring>, SizedLaws<PlasticShear>, SizedLaws<Frictionless, DentAdhesion>,
+               SizedLaws<Spring, DentAdhesion>>
+      laws;
 };
 
 static_assert(GRANULAW_MECHANISMS == static_cast<int>(Mechanism::count));
 static_assert(GRANULAW_PLASTIC == static_cast<int>(Mechanism::plastic) &&
               GRANULAW_WAVES == static_cast<int>(Mechanism::waves) &&
               GRANULAW_FRICTION == static_cast<int>(Mechanism::friction) &&
-              GRANULAW_SHEAR == static_cast<int>(Mechanism::shear));
+              GRANULAW_SHEAR == static_cast<int>(Mechanism::shear) &&
+              GRANULAW_ADHESION == static_cast<int>(Mechanism::adhesion));
 
 namespace {
 int failed(int code, granulaw_why* why, std::string_view sentence)
@@ -141,6 +145,8 @@ const char* wrong_number(const granulaw_pair& pair)
   if (!positive(pair.friction) || !positive(pair.shear_stiffness) || !positive(pair.shear_damping) ||
       !positive(pair.elastic_damping))
     return "friction, shear_stiffness, shear_damping and elastic_damping: 0 or more";
+  if (!positive(pair.work_of_adhesion) || !positive(pair.adhesion_range)) return "work_of_adhesion and adhesion_range: 0 or more";
+  if (pair.work_of_adhesion > 0 && pair.yields_in_shear) return "work_of_adhesion: not with yields_in_shear";
   return nullptr;
 }
 
@@ -160,7 +166,13 @@ Radii radii(double radius)
   return radius > 0 ? Radii{std::min(radius, wall_radius), std::min(radius, wall_radius)} : Radii{};
 }
 
-template <class Tangential>
+double r_eff_of(double radius_a, double radius_b)
+{
+  if (std::isinf(radius_a)) return radius_b;
+  return std::isinf(radius_b) ? radius_a : effective_radius(radius_a, radius_b);
+}
+
+template <class Tangential, class Beside = NothingBeside>
 void make_laws(granulaw_contact_law& contact, const granulaw_pair& pair)
 {
   const auto& [a, b] = contact.names;
@@ -169,14 +181,20 @@ void make_laws(granulaw_contact_law& contact, const granulaw_pair& pair)
       BodiesInShear::of(body_of(*contact.law, a), body_of(*contact.law, b), pair.shear_damping, scale.pressure());
   bodies.stiffness = said(pair.shear_stiffness, bodies.stiffness);
   const ShearPair spring = ShearPair::of(bodies.stiffness, pair.friction, pair.shear_damping, scale.stretch);
-  SizedLaws<Tangential> laws;
+  SizedLaws<Tangential, Beside> laws;
   for (std::size_t k = 0; k < contact.choice.count(); ++k) {
     const bool serves = contact.choice.serves(k, radii(pair.radius_a), radii(pair.radius_b));
     const auto [radius_a, radius_b] = serves ? std::pair(pair.radius_a, pair.radius_b) : contact.choice.radii_of(k, {}, {});
     PairLaw law = resolve_pair(*contact.law, a, b, "granulaw_contact", radius_a, radius_b);
     if (pair.no_waves) law.radiation = 0;
     const Tabulated normal(law, law.measure(), scale);
-    ContactElement<Tabulated, Tangential> element{normal};
+    ContactElement<Tabulated, Tangential, Beside> element{normal};
+    if constexpr (std::same_as<Beside, DentAdhesion>) {
+      element.beside = DentAdhesion(normal, pair.work_of_adhesion);
+      const double range = said(pair.adhesion_range * scale.length, usual_adhesion_range);
+      if (const double r_eff = serves ? r_eff_of(radius_a, radius_b) : 0; r_eff > 0 && std::isfinite(r_eff))
+        if (const std::string why = element.beside.fault(normal, r_eff, range); !why.empty()) fail("granulaw_contact", why);
+    }
     if constexpr (std::same_as<Tangential, Spring>) element.tangential = Spring(spring);
     if constexpr (std::same_as<Tangential, PlasticShear>) {
       if (const std::string why = unknown_flow_stress(*contact.law, law); !why.empty()) fail("granulaw_contact", why);
@@ -191,7 +209,11 @@ void make_laws(granulaw_contact_law& contact, const granulaw_pair& pair)
 
 void make_laws(granulaw_contact_law& contact, const granulaw_pair& pair)
 {
-  if (pair.yields_in_shear)
+  if (pair.work_of_adhesion > 0 && pair.friction == 0.0)
+    make_laws<Frictionless, DentAdhesion>(contact, pair);
+  else if (pair.work_of_adhesion > 0)
+    make_laws<Spring, DentAdhesion>(contact, pair);
+  else if (pair.yields_in_shear)
     make_laws<PlasticShear>(contact, pair);
   else if (pair.friction == 0.0)
     make_laws<Frictionless>(contact, pair);
@@ -199,17 +221,19 @@ void make_laws(granulaw_contact_law& contact, const granulaw_pair& pair)
     make_laws<Spring>(contact, pair);
 }
 
+/// m.
+template <class Element>
+double reach_of(const Element& element, double r_eff)
+{
+  if constexpr (Element::has_beside) return element.beside.reach(r_eff);
+  return 0.0;
+}
+
 /// The law for bodies of these radii, one of which may be infinite.
 template <class Laws>
 const auto& sized(const granulaw_contact_law& contact, const Laws& laws, double radius_a, double radius_b)
 {
   return laws[contact.finder.nearest(std::min(radius_a, wall_radius), std::min(radius_b, wall_radius))];
-}
-
-double r_eff_of(double radius_a, double radius_b)
-{
-  if (std::isinf(radius_a)) return radius_b;
-  return std::isinf(radius_b) ? radius_a : effective_radius(radius_a, radius_b);
 }
 
 /// False of radii and m* that no two bodies have.
@@ -273,7 +297,7 @@ std::size_t advance(const granulaw_contact_law& contact, const Laws& laws, std::
   for (std::size_t k = 0; k < n; ++k, history += Element::values) {
     const granulaw_motion& m = at(motion, k);
     granulaw_answer& now = at(answers, k);
-    if (m.overlap <= 0) {
+    if (m.overlap <= 0 && (!Element::has_beside || !has_numbers(m, r_eff_of(m.radius_a, m.radius_b)))) {
       if (!m.asked_again) std::fill_n(history, Element::values, 0.0);
       now = {answers->size, 0.0, {}, {}, 0u};
       continue;
@@ -286,7 +310,8 @@ std::size_t advance(const granulaw_contact_law& contact, const Laws& laws, std::
     const bool begins = Element::State::largest(history) == 0.0;
     Forces caller;
     caller.waves = one.element.normal.radiation > 0;
-    const ContactForce force = one.element.touch(moves, history, ledger, caller);
+    const ContactForce force = Element::has_beside && m.overlap <= 0 ? one.element.advance(moves, history, ledger)
+                                                                      : one.element.touch(moves, history, ledger, caller);
     now.normal = force.normal;
     std::copy_n(force.shear.begin(), 3, now.shear);
     std::copy_n(force.couple.begin(), 3, now.couple);
@@ -305,12 +330,15 @@ std::size_t states(const granulaw_contact_law& contact, const Laws& laws, std::s
     const granulaw_motion& m = at(motion, k);
     granulaw_state& now = at(states, k);
     now = {states->size, 0.0, 0.0, 0.0, State::largest(history), GRANULAW_APART};
-    if (m.overlap <= 0) continue;
+    if (m.overlap <= 0 && !Element::has_beside) continue;
     const double r_eff = r_eff_of(m.radius_a, m.radius_b);
     if (!has_numbers(m, r_eff)) return k;
     const auto& element = sized(contact, laws, m.radius_a, m.radius_b).element;
     const Tabulated& normal = element.normal;
     const ContactMotion moves = motion_of(m, r_eff);
+    if constexpr (Element::has_beside)
+      now.stored_energy = element.beside.stored_energy(normal, moves.r_eff, m.overlap, history, history + Element::beside_at);
+    if (m.overlap <= 0) continue;
     double own[State::values];
     std::copy_n(history, State::values, own);
     const double largest = State::largest(history), impact_overlap = State::impact_overlap(history);
@@ -318,7 +346,7 @@ std::size_t states(const granulaw_contact_law& contact, const Laws& laws, std::s
     const Response response = normal.response(moves.r_eff, m.overlap, largest, impact_overlap, own + State::own);
     now.stiffness = response.stiffness;
     now.contact_radius = element.contact_radius(moves, history);
-    now.stored_energy = normal.stored_energy(moves.r_eff, m.overlap, deepest, impact_overlap);
+    now.stored_energy += normal.stored_energy(moves.r_eff, m.overlap, deepest, impact_overlap);
     now.largest_overlap = deepest;
     const double per_length = normal.per_lambda / moves.r_eff;
     if (!normal.curve->unloads(m.overlap * per_length, deepest * per_length))
@@ -491,7 +519,8 @@ int granulaw_range_of(const granulaw_contact_law* contact, double radius_a, doub
                               .overlap = normal.largest_overlap(),
                               .yield_overlap = normal.yield_overlap(),
                               .slowest = normal.min_speed(r_eff, m_eff),
-                              .fastest = normal.max_speed(r_eff, m_eff)});
+                              .fastest = normal.max_speed(r_eff, m_eff),
+                              .reach = reach_of(sized(*contact, laws, radius_a, radius_b).element, r_eff) / r_eff});
       },
       contact->laws);
 }

@@ -98,6 +98,9 @@ typedef struct {
   int yields_in_shear;        /* not 0: `tangential plastic` in place of Mindlin's spring, with any friction;
                                  GRANULAW_NO_LAW where the file has no flow stress of the body that yields */
   int no_waves;               /* not 0: waves take nothing (`waves off`) */
+  double work_of_adhesion;    /* of the two surfaces, energy over area, not stretched; 0: they do not stick. Not with yields_in_shear.
+                                 GRANULAW_NO_LAW where the radii are given and adhesion does not hold for them (`cohesion dent`) */
+  double adhesion_range;      /* gap at which the attraction ends; 0: 0.4 nm */
 } granulaw_pair;
 
 /* A pair without names, as `pair_style gran model mpm tangential history` has it by default: SI units, no friction,
@@ -122,6 +125,7 @@ typedef struct {
   double overlap;          /* over R*: beyond it the force goes on with its last stiffness */
   double yield_overlap;    /* over R*: of first yield; infinity: never */
   double slowest, fastest; /* approach speeds for which the law's velocity axis holds; 0 and infinity: all */
+  double reach;            /* gap over R*, up to which surfaces that stick may hold each other: for neighbour lists */
 } granulaw_range;
 
 /* Error of the law: 95 % of impacts lie within. Infinity: the file states none for such an impact. */
@@ -146,7 +150,7 @@ typedef struct {
   size_t size;
   double radius_a, radius_b; /* of the bodies; radius_b infinity: a wall */
   double m_eff;       /* m* = m_a m_b/(m_a + m_b); at a wall the body's m */
-  double overlap;     /* R_a + R_b less the distance of the centres; 0 or less: the contact ends */
+  double overlap;     /* R_a + R_b less the distance of the centres; 0 or less: the contact ends, unless adhesion holds it */
   double approach;    /* normal speed, positive: the surfaces come nearer */
   double dt;          /* time step, > 0: not checked */
   double normal[3];   /* unit vector from b to a: its length is not checked */
@@ -167,7 +171,7 @@ enum {
 /* Force on a; b gets the opposite. */
 typedef struct {
   size_t size;
-  double normal;    /* along `normal`, 0 or more */
+  double normal;    /* along `normal`, 0 or more; where surfaces stick of any sign */
   double shear[3];
   double couple[3]; /* on a, beside the torque of `shear`; b gets the opposite */
   unsigned beyond;  /* OVERLAP in each step, the others in a contact's first */
@@ -175,7 +179,7 @@ typedef struct {
 
 /* Places of the ledger: energy that contacts took and do not give back. A contact that two ranks compute is booked
  * by both. */
-enum { GRANULAW_PLASTIC = 0, GRANULAW_WAVES = 1, GRANULAW_FRICTION = 2, GRANULAW_SHEAR = 3, GRANULAW_MECHANISMS = 4 };
+enum { GRANULAW_PLASTIC = 0, GRANULAW_WAVES = 1, GRANULAW_FRICTION = 2, GRANULAW_SHEAR = 3, GRANULAW_ADHESION = 4, GRANULAW_MECHANISMS = 5 };
 
 /* Advances n contacts by a step: forces. history: granulaw_history() doubles of each contact, one after the other.
  * ledger: GRANULAW_MECHANISMS numbers that are added to; null: nothing is booked. done: how many contacts were
@@ -192,7 +196,7 @@ typedef struct {
   size_t size;
   double stiffness;       /* slope of the normal law on its branch */
   double contact_radius;  /* of the real, unstretched contact */
-  double stored_energy;   /* that the normal law gives back when the bodies part */
+  double stored_energy;   /* that the contact gives back when the bodies part; where surfaces stick it may be negative */
   double largest_overlap; /* since first touch */
   int branch;
 } granulaw_state;

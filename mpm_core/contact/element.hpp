@@ -28,7 +28,8 @@ struct ContactForce
 // clang-format off
 
 /// A piece that stands beside the two laws: adhesion, a bond, a charge. `history`: its own values. Values that each particle
-/// has, in ContactMotion: `static constexpr const char* particle_values`, their name, and `particle_count`.
+/// has, in ContactMotion: `static constexpr const char* particle_values`, their name, and `particle_count`. With `outside_friction`
+/// true friction grows with the normal law's force and the dashpots' alone.
 template <class Piece, class Normal>
 concept StandsBeside = std::copyable<Piece> &&
     requires(const Piece piece, const Normal normal, const ContactMotion& motion, double r_eff, double push, double* normal_history,
@@ -94,6 +95,7 @@ struct ContactElement
   [[no_unique_address]] Beside beside{};
 
   static constexpr bool has_beside = !std::same_as<Beside, NothingBeside>;
+  static constexpr bool loads_friction = has_beside && !requires { requires Beside::outside_friction; };
 
   /// `history`: `values` numbers of this contact. An overlap of 0 or less ends it, unless the piece beside holds it. Adds to `books`.
   ContactForce advance(const ContactMotion& m, double* history, Ledger& ledger) const
@@ -112,7 +114,7 @@ struct ContactElement
     // itself, to the bit (std::max gives its first argument where that is no number, for the particle code to find)
     double push = now.law <= 0.0 ? 0.0 : std::max((now.law + now.waves) + braking, 0.0), pull = 0.0;
     if constexpr (has_beside) pull = beside.advance(normal, m, push, history, history + beside_at, ledger);
-    double pressing = has_beside ? push + pull : push;
+    double pressing = loads_friction ? push + pull : push;
     caller.press(now, push, pressing);
     if (Radiates<Normal> && m.advances && caller.with_stiffness())
       ledger[Mechanism::waves] += work_of_waves(now.waves, m.approach, push, m.m_eff, m.dt);

@@ -6,7 +6,7 @@
 namespace granulaw {
 
 /// Mechanisms that dissipate the work on a contact.
-enum class Mechanism : std::size_t { plastic, waves, friction, shear, count };
+enum class Mechanism : std::size_t { plastic, waves, friction, shear, adhesion, count };
 
 /// A mechanism in words. Sums over ranks, restart files, JSON, thermo values and the line at a run's end
 /// follow from this list.
@@ -23,6 +23,7 @@ inline constexpr std::array mechanisms{
     MechanismText{Mechanism::waves, "wave_dissipation_J", "taken by waves, J", true, false},
     MechanismText{Mechanism::friction, "friction_dissipation_J", "taken by friction, J", false, false},
     MechanismText{Mechanism::shear, "shear_dissipation_J", "dissipated by shear and turning of dents, J", true, false},
+    MechanismText{Mechanism::adhesion, "adhesion_dissipation_J", "dissipated by adhesion, J", true, false},
 };
 static_assert(mechanisms.size() == static_cast<std::size_t>(Mechanism::count));
 

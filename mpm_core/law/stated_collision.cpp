@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "contact/adhesion.hpp"
 #include "law/damage_number.hpp"
 
 namespace granulaw {
@@ -63,12 +64,18 @@ StatedCollision state(const Law& law, const ChosenPair& pair, double velocity)
 }  // namespace
 
 StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source,
-                        const ImpactBody& body)
+                        const ImpactBody& body, const Attraction& attraction)
 {
   if (!(velocity >= 1e-12 && velocity <= 1e6))  // as of the radii (chosen_pair.cpp)
     fail("--velocity", "cannot be used", fmt::format("{:g} m/s", velocity), "1e-12 to 1e+06 m/s");
   StatedCollision result = state(law, pair, velocity);
-  result.replay = replay_collision(pair.law, pair.r_eff, pair.m_eff, velocity, 20000, moved(law, pair, body));
+  result.replay = replay_collision(pair.law, pair.r_eff, pair.m_eff, velocity, 20000, moved(law, pair, body), attraction);
+  if (attraction.work > 0) {
+    if (body.compliance > 0) fail("--work-of-adhesion", "cannot go with --impact-body-compliance");
+    const Tabulated normal(pair.law, pair.law.measure(), {});
+    const std::string why = DentAdhesion(normal, attraction.work).fault(normal, pair.r_eff, attraction.range, result.replay.delta_max);
+    if (!why.empty()) fail("--work-of-adhesion", why);
+  }
   const double allowed = (1 + overlap_margin) * pair.limit();
   if (result.replay.delta_max > allowed)
     fail(source, "the collision leaves the law's range of overlaps by more than 5 %",

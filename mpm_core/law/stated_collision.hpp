@@ -23,9 +23,10 @@ struct StatedCollision
 };
 
 /// `velocity`: m/s, of approach, 1e-12 to 1e6. Throws Error where it is another, and, led by `source`, where the
-/// collision goes deeper than the law is good for. `body`: what the first of the pair is fixed to.
+/// collision goes deeper than the law is good for, or adhesion is refused (DentAdhesion::fault). `body`: what the first of the pair is
+/// fixed to.
 StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity, const std::string& source,
-                        const ImpactBody& body = {});
+                        const ImpactBody& body = {}, const Attraction& attraction = {});
 
 /// The bound of such a collision alone, without its replay: of a speed at which the law has none, not stated.
 ErrorBound bound_of_impact(const Law& law, const ChosenPair& pair, double velocity);

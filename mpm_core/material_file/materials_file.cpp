@@ -80,7 +80,7 @@ void read_yield_surface(const Section& y, Material& m)
 Material read_material(const Section& s)
 {
   s.check_keys(
-      {"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening", "rate", "yield_surface"});
+      {"density", "youngs_modulus", "poisson_ratio", "yield_stress", "hardening", "rate", "yield_surface", "surface_energy", "adhesion_range"});
   Material m;
   const auto where = [&](const char* key) { return s.where(s.node(key)); };
   m.density = s.positive("density", "kg/m^3");
@@ -100,6 +100,8 @@ Material read_material(const Section& s)
                                "{kind = \"drucker-prager\", friction_angle = 30, "
                                "dilatancy_angle = 10}"),
                        m);
+  if (s.has("surface_energy")) m.surface_energy = s.positive("surface_energy", "J/m2");
+  if (s.has("adhesion_range")) m.adhesion_range = s.positive("adhesion_range", "m");
   return m;
 }
 

@@ -26,6 +26,8 @@ namespace granulaw {
 ///     rate = {law = "johnson-cook", coefficient = 0.02, reference_rate = 1}; or
 ///         # times 1 + (rate/reference)^(1/exponent)
 ///         {law = "cowper-symonds", reference_rate = 40, exponent = 5}
+///     surface_energy = 0.05        # J/m2, of each surface that sticks; leave it out for none
+///     adhesion_range = 0.4e-9      # m, gap at which its attraction ends
 ///
 ///     [particle.grain]             # a homogeneous sphere
 ///     radius = 2e-3                # m

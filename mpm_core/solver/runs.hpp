@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/attraction.hpp"
 #include "solver/material/material.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/fields.hpp"
@@ -40,6 +41,7 @@ struct Partner
 {
   std::optional<Particle> particle{};  ///< a second particle, pole against pole
   std::optional<Material> wall{};      ///< a deformable wall with a flat, frictionless face
+  Attraction attraction{};             ///< of a sphere and the rigid plane, two dimensions
 };
 
 struct RunOptions

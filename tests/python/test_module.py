@@ -74,7 +74,7 @@ class TestContacts:
         contact = law.contact("powder:powder", elastic_damping=0, radius_a=1e-3, radius_b=2e-3)
         speeds = np.array([0.05, 0.5, 3.0])
         impacts = [pair.impact(v) for v in speeds]
-        m, history, ledger = contact.motion(3), contact.history(3), np.zeros(4)
+        m, history, ledger = contact.motion(3), contact.history(3), np.zeros(5)
         m["radius_a"], m["radius_b"], m["m_eff"] = 1e-3, 2e-3, pair.m_eff
         m["dt"] = dt = np.array([i["contact_time_s"] for i in impacts]) / 20000
         v, overlap, force, most = speeds.copy(), np.zeros(3), np.zeros(3), np.zeros(3)
@@ -88,6 +88,24 @@ class TestContacts:
         assert -v / speeds == pytest.approx([i["e"] for i in impacts], abs=1e-6)  # both by steps of a 20000th
         assert most == pytest.approx([i["force_max_N"] for i in impacts], rel=1e-7)
         assert ledger.sum() == pytest.approx((0.5 * pair.m_eff * (speeds**2 - v**2)).sum(), rel=1e-4)  # the axis's table of work
+
+    def test_surfaces_stick(self, law):
+        """Drawn off from a dent in small steps: the largest pull is that of mpm law, beyond that of an undented contact; parted, nothing is left."""
+        radius, work, reach = 100e-6, 0.02, 0.6e-9
+        contact = law.contact("powder:wall", radius_a=radius, radius_b=np.inf, work_of_adhesion=work, adhesion_range=reach)
+        m, history, ledger = contact.motion(1), contact.history(1), np.zeros(5)
+        m["radius_a"], m["radius_b"], m["m_eff"], m["dt"] = radius, np.inf, 1e-12, 1e-9
+        depth, forces = 0.02 * radius, []
+        for overlap in np.concatenate((np.linspace(0, depth, 200), np.linspace(depth, -0.01 * radius, 20000))):
+            m["overlap"] = overlap
+            forces.append(contact.advance(m, history, ledger)["normal"][0])
+        pull = -min(forces)
+        assert pull > 3 * 1.5 * np.pi * work * radius
+        assert forces[-1] == 0
+        assert not history.any()
+        assert ledger[4] > 0
+        with pytest.raises(granulaw.Error, match="contact pressure"):
+            law.contact("powder:wall", radius_a=radius, radius_b=np.inf, work_of_adhesion=0.1, adhesion_range=0.4e-9)
 
     def test_a_wrong_motion_has_its_place(self, law):
         contact = law.contact("powder:wall")

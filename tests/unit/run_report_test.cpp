@@ -38,7 +38,7 @@ TEST_F(RunReport, TellsTheSettingToPeopleOnly)
 TEST_F(RunReport, WritesTheTraceAndSaysSo)
 {
   request_.output = path("t.csv");
-  const std::string said = printed([&] { report(request_, grain_, some_result(1)); });
+  const std::string said = printed([&] { report(request_, {grain_, {}}, some_result(1)); });
   EXPECT_TRUE(said.starts_with("coefficient of restitution e   0.1429\n")) << said;
   EXPECT_TRUE(said.ends_with("wrote " + path("t.csv") + "\n")) << said;
   EXPECT_EQ(files(), 1u);
@@ -47,7 +47,7 @@ TEST_F(RunReport, WritesTheTraceAndSaysSo)
 TEST_F(RunReport, JsonIsOneObject)
 {
   request_.json = true;
-  const auto out = nlohmann::ordered_json::parse(printed([&] { report(request_, grain_, some_result(1)); }));
+  const auto out = nlohmann::ordered_json::parse(printed([&] { report(request_, {grain_, {}}, some_result(1)); }));
   EXPECT_EQ(out["steps"], 12345);
   EXPECT_EQ(out["grid"], "mapped");
   EXPECT_TRUE(out["error_estimate"].is_null());

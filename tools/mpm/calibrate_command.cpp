@@ -2,17 +2,20 @@
 #include <filesystem>
 #include <memory>
 
+#include "atlas/law_from_atlas.hpp"
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "calibrate/calibrate_by_runs.hpp"
 #include "calibrate/cycles.hpp"
 #include "calibrate/leeb.hpp"
 #include "calibrate/material_toml.hpp"
+#include "calibrate/pull_off.hpp"
 #include "calibrate/sphere_laws.hpp"
 #include "calibration_options.hpp"
 #include "calibration_output.hpp"
 #include "characterise/build/build_law.hpp"
 #include "command.hpp"
+#include "contact/adhesion.hpp"
 #include "farm_options.hpp"
 #include "json_output.hpp"
 #include "material_file/plausible.hpp"
@@ -29,6 +32,7 @@ struct CalibrateRequest
   CalibrationOptions options;
   FarmOptions farm;
   std::string output, plot, reference;
+  double adhesion_range = usual_adhesion_range;
   int ensemble = 0;
   unsigned seed = 1;
   bool json = false;
@@ -129,8 +133,38 @@ std::optional<Estimate95> static_flow_stress(const CalibrateRequest& r, const Ca
   return over({p.value, p.within95.low, p.within95.high}, factor);
 }
 
+constexpr const char* adhesion_name = "work_of_adhesion";
+
+/// `--fit work_of_adhesion`: of pull-off forces of a known material.
+void fit_adhesion_alone(const CalibrateRequest& r)
+{
+  const CalibrationOptions& o = r.options;
+  if (o.fit.size() != 1 || o.data.size() != 1 || !r.output.empty() || !r.plot.empty() || r.ensemble > 0)
+    fail("--fit", fmt::format("'{}' takes one file of pull-off forces, of a known material, and makes no file", adhesion_name));
+  if (!(o.youngs_modulus && o.yield_stress && o.radius && std::isfinite(*o.radius)))
+    fail("--fit", fmt::format("'{}' needs --youngs-modulus, --yield-stress and --radius", adhesion_name));
+  const std::vector<PullOff> data = read_pull_offs(o.data.front());
+  const std::optional<Atlas> atlas = own_atlas();
+  if (!atlas) fail("mpm calibrate", "the atlas is not beside the program (docs/evidence/atlas.md)");
+  const LawMaterial material{o.name, o.density.value_or(1000), *o.youngs_modulus, o.poisson_ratio, *o.yield_stress, o.hardening_modulus.value_or(0)};
+  const BodyLaw body = law_from(*atlas, material, {.depth = 0.3});
+  const bool equal = o.partner != "wall";
+  const PairLaw pair{{&body.curve, equal ? PairMapping::deformable_partner(material.e_star(), material.e_star()) : PairMapping::rigid_partner(material.e_star())}, &body};
+  const FoundAdhesion found = fit_adhesion(pair, equal ? 0.5 * *o.radius : *o.radius, data, r.adhesion_range, o.data.front());
+  const bool trend = std::abs(found.trend) > 0.1 && std::abs(found.trend) > 2 * found.trend_sd;
+  if (r.json)
+    return print_json({{"parameters", {{adhesion_name, {{"value", found.work}, {"low95", found.low}, {"high95", found.high}, {"unit", "J/m2"}}}}}, {"count", data.size()},
+                       {"scatter", found.scatter}, {"preload_trend", found.trend}, {"follows_the_dent", !trend}});
+  fmt::print("{}  {:.4g} J/m2 (95 %: {:.4g} to {:.4g}), of {} pull-off forces; they scatter by {:.2g} %\n", adhesion_name, found.work, found.low, found.high, data.size(),
+             100 * found.scatter);
+  if (trend)
+    fmt::print("The pull-off forces grow with the preload to the power of {:.2g} {} than those of dents: rough surfaces, or another yield stress\n", std::abs(found.trend),
+               found.trend > 0 ? "more" : "less");
+}
+
 void run(const CalibrateRequest& r)
 {
+  if (std::find(r.options.fit.begin(), r.options.fit.end(), adhesion_name) != r.options.fit.end()) return fit_adhesion_alone(r);
   check_outputs(r);
   r.farm.check();
   CalibrationRequest request = r.options.request();
@@ -166,6 +200,7 @@ void define(Options& command)
   command.add_option("--reference", r->reference,
                      "HL=VALUE,HB=VALUE: what the rebound tester reads on its own block, and the block's HBW 10/3000. Only the static\n"
                      "flow stress depends on it");
+  command.add_option("--adhesion-range", r->adhesion_range, "m, with --fit work_of_adhesion: gap at which the attraction ends").check(above_zero_to(1e-3)).capture_default_str();
   command.add_option("-o,--output", r->output, "materials file, NAME.toml, that mpm table takes");
   command.add_option("--plot", r->plot, "picture of data, fit and its 95 % band: NAME.png, .pdf or .svg");
   command.add_option("--ensemble", r->ensemble, "so many materials drawn from what the data leave open: NAME-1.toml, ... beside -o NAME.toml")

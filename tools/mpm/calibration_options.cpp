@@ -47,13 +47,13 @@ std::string data_help()
     if (kind->word) text += fmt::format(" (--kind {})", kind->word);
     text += fmt::format(": {}", kind->help);
   }
-  return text + ";\nleeb_hardness: readings of a rebound tester on thick metal, with --leeb.\nEach with a further column NAME_sd where the standard deviation is known (docs/guide/calibrate.md)";
+  return text + ";\npreload_N,pull_off_N: pull-off forces, with --fit work_of_adhesion;\nleeb_hardness: readings of a rebound tester on thick metal, with --leeb.\nEach with a further column NAME_sd where the standard deviation is known (docs/guide/calibrate.md)";
 }
 
 /// "youngs_modulus, ...; with --hardening voce: saturation_stress, strain; ..."
 std::string fit_help()
 {
-  std::string text = "the wanted numbers: youngs_modulus, yield_stress, hardening_modulus";
+  std::string text = "the wanted numbers: youngs_modulus, yield_stress, hardening_modulus; work_of_adhesion alone, of preload_N,pull_off_N";
   for (const std::string& law : fitted_hardening_laws()) {
     std::vector<std::string> names;
     for (const Parameter p : parameters_of(law))

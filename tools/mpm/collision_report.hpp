@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/attraction.hpp"
+
 namespace granulaw {
 
 /// A relative error in per cent.
@@ -52,6 +54,25 @@ void print_collision(const Collision& c, const std::string& depth)
   fmt::print("residual overlap               {:.5g} m\n", c.delta_residual);
   fmt::print("contact time                   {:.5g} s\n", c.contact_time);
   fmt::print("work put in, given back        {:.5g} J, {:.5g} J\n", c.work_load, c.work_unload);
+}
+
+/// Beside them where the surfaces attract each other.
+template <class Collision>
+nlohmann::ordered_json with_adhesion(nlohmann::ordered_json out, const Collision& c, const Attraction& attraction)
+{
+  if (!(attraction.work > 0)) return out;
+  out["pull_off_N"] = c.pull_off;
+  out["sticks"] = c.sticks;
+  out["work_of_adhesion_J_per_m2"] = attraction.work;
+  out["adhesion_range_m"] = attraction.range;
+  return out;
+}
+template <class Collision>
+void print_adhesion(const Collision& c, const Attraction& attraction)
+{
+  if (!(attraction.work > 0)) return;
+  fmt::print("pull-off force                 {:.5g} N{}\n", c.pull_off, c.sticks ? ", and it sticks" : "");
+  fmt::print("work of adhesion, range        {:.4g} J/m2, {:.3g} m (--adhesion-range)\n", attraction.work, attraction.range);
 }
 
 }  // namespace granulaw

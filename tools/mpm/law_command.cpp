@@ -4,6 +4,7 @@
 #include <ctime>
 #include <memory>
 
+#include "adhesion_options.hpp"
 #include "command.hpp"
 #include "impact_body_options.hpp"
 #include "law/law_file.hpp"
@@ -17,6 +18,7 @@ struct LawRequest : PairAsked
 {
   double velocity = 0;
   ImpactBody body;
+  Attraction attraction;
   bool json = false;
 };
 
@@ -40,14 +42,14 @@ void replay(const LawRequest& r)
   const Law law = read_law(r.law);
   const ChosenPair pair = choose_pair(law, r);
   const std::clock_t start = std::clock();
-  const StatedCollision found = collide(law, pair, r.velocity, r.law, r.body);
+  const StatedCollision found = collide(law, pair, r.velocity, r.law, r.body, r.attraction);
   const double cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 
   for (const std::string& warning : warnings_of(pair, r.velocity, found)) fmt::print(stderr, "mpm: {}\n", warning);
   if (r.json)
-    print_json(law_json(found, cpu_s));
+    print_json(with_adhesion(law_json(found, cpu_s), found.replay, r.attraction));
   else
-    print(pair, r.velocity, found);
+    print(pair, r.velocity, found), print_adhesion(found.replay, r.attraction);
 }
 
 void define(Options& command)
@@ -56,6 +58,7 @@ void define(Options& command)
   command.add_option("LAW", r->law, "law file of mpm table").required();
   define_pair_options(command, *r);
   command.add_option("--velocity", r->velocity, "approach speed, m/s").required();
+  define_adhesion(command, r->attraction);
   define_impact_body(command, r->body, "the first body of the pair");
   command.add_flag("--json", r->json,
       "print one JSON object instead of the summary, with the keys of mpm impact. Also the error bound: error_force (relative) and error_restitution (absolute), null beyond damage_number_max and outside the velocity axis. The larger, both relative, is error_estimate. The law_kind is single, two-body, composed, corrected or reduced");

@@ -5,7 +5,9 @@
 #include <memory>
 #include <set>
 
+#include "adhesion_options.hpp"
 #include "atlas/composed_law.hpp"
+#include "atlas/law_from_atlas.hpp"
 #include "base/error.hpp"
 #include "command.hpp"
 #include "deck/material_names.hpp"
@@ -14,6 +16,8 @@
 #include "json_output.hpp"
 #include "law/contact_step.hpp"
 #include "law/error_bound.hpp"
+#include "law/replay.hpp"
+#include "own_files.hpp"
 
 namespace granulaw {
 
@@ -23,6 +27,7 @@ struct PlanRequest
 {
   std::string deck;
   DeckOptions options;
+  Attraction attraction;
   bool json = false;
 };
 
@@ -93,6 +98,68 @@ ordered_json pair_json(const deck::PairPlan& p)
       {"verdict", verdict(p)}};
 }
 
+/// Adhesion of the smallest particles of a pair.
+struct PairAdhesion
+{
+  double bond = 0;            ///< pull-off force of an undented contact over the weight; infinity: no gravity
+  double sticking_speed = 0;  ///< m/s, below which they stick
+  AdhesionNumbers numbers;    ///< of the deepest dent that is planned
+  std::string refused;        ///< why `cohesion dent` would refuse them; empty: it does not
+
+  bool matters(double speed) const { return bond > 1 || sticking_speed > 0.1 * speed; }
+};
+
+/// None: the yield stress, the size or the law is not known.
+std::optional<PairAdhesion> adhesion_of(const PlannedDeck& d, const deck::PairPlan& p, const Attraction& attraction)
+{
+  static const std::optional<Atlas> atlas = own_atlas();
+  if (!(attraction.work > 0) || !p.visited || !p.meeting.known_yield || !(d.plan.radius_min > 0) || !(d.plan.mass_min > 0) || !atlas) return {};
+  const double share = p.meeting.wall ? 1.0 : 0.5, r_eff = share * d.plan.radius_min, m_eff = share * d.plan.mass_min, g = deck::norm(d.scene.gravity);
+  try {
+    const BodyLaw body = law_from(*atlas, p.meeting.yields, {.depth = std::max(0.1, std::min(0.5, 1.05 * p.depth))});
+    const PairLaw pair{{&body.curve, p.meeting.mapping}, &body};
+    const Tabulated law(pair, pair.measure(), {});
+    const DentAdhesion piece(law, attraction.work);
+    PairAdhesion found;
+    found.bond = piece.smooth_pull_off(law, r_eff) / (d.plan.mass_min * g);
+    found.numbers = piece.numbers(law, r_eff, p.overlap * r_eff, attraction.range);
+    found.refused = piece.fault(law, r_eff, attraction.range);
+    // of elastic spheres, Johnson, Kendall and Roberts; a dent sticks at higher speeds
+    const double w = attraction.work, e_star = p.meeting.mapping.e_star_pair();
+    double low = std::sqrt(2 * 7.09 * std::cbrt(std::pow(w, 5) * std::pow(r_eff, 4) / (e_star * e_star)) / m_eff), high = 100 * low;
+    for (int k = 0; k < 16; ++k) {
+      const double middle = std::sqrt(low * high);
+      (replay_collision(pair, r_eff, m_eff, middle, 2000, {}, attraction).sticks ? low : high) = middle;
+    }
+    found.sticking_speed = low;
+    return found;
+  } catch (const Error&) {
+    return {};  // beyond the atlas
+  }
+}
+
+ordered_json adhesion_json(const PlannedDeck& d, const deck::PairPlan& p, const Attraction& attraction)
+{
+  const std::optional<PairAdhesion> found = adhesion_of(d, p, attraction);
+  if (!found) return {};
+  return {{"bond_number", json_number(found->bond)}, {"sticking_speed_m_per_s", found->sticking_speed}, {"W", found->numbers.W}, {"chi", found->numbers.chi}, {"S", found->numbers.S},
+      {"tabor_number", found->numbers.tabor}, {"matters", found->matters(p.speed)}, {"refused", found->refused.empty() ? ordered_json() : ordered_json(found->refused)}};
+}
+
+void print_adhesion(const PlannedDeck& d, const Attraction& attraction)
+{
+  if (!(attraction.work > 0)) return;
+  fmt::print("adhesion, w {:.3g} J/m2 over {:.3g} m, of the smallest particles; surfaces are taken as smooth: measured pull-off forces are often far lower\n", attraction.work,
+      attraction.range);
+  for (const deck::PairPlan& p : d.plan.pairs) {
+    const std::optional<PairAdhesion> found = adhesion_of(d, p, attraction);
+    if (!found) continue;
+    const AdhesionNumbers& n = found->numbers;
+    fmt::print("  {:<9} Bond number {:.3g}, sticks below {:.3g} m/s, W {:.2g}, chi {:.2g}, S {:.2g}, Tabor {:.2g}: {}\n", types_text(p.meeting), found->bond, found->sticking_speed, n.W,
+        n.chi, n.S, n.tabor, !found->refused.empty() ? "refused: " + found->refused : found->matters(p.speed) ? "cohesion dent" : "does not matter");
+  }
+}
+
 ordered_json cost_json(const PlannedDeck& d)
 {
   return {{"particles", json_number(d.options.particles.value_or(d.scene.count()))}, {"particle_steps", json_number(d.plan.particle_steps)},
@@ -100,11 +167,14 @@ ordered_json cost_json(const PlannedDeck& d)
       {"unknown_loop", d.plan.unknown_cost.empty() ? ordered_json() : ordered_json(printable(d.plan.unknown_cost))}};
 }
 
-ordered_json to_json(const PlannedDeck& d, const std::string& command)
+ordered_json to_json(const PlannedDeck& d, const std::string& command, const Attraction& attraction)
 {
   const deck::Plan& plan = d.plan;
   ordered_json pairs = ordered_json::array(), questions = ordered_json::array();
-  for (const deck::PairPlan& p : plan.pairs) pairs.push_back(pair_json(p));
+  for (const deck::PairPlan& p : plan.pairs) {
+    pairs.push_back(pair_json(p));
+    if (attraction.work > 0) pairs.back()["adhesion"] = adhesion_json(d, p, attraction);
+  }
   for (const deck::Question& q : plan.questions) questions.push_back({{"what", printable(q.what)}, {"option", q.option}});
   ordered_json root;
   root["deck"] = printable(d.scene.deck);
@@ -244,10 +314,11 @@ void plan(const PlanRequest& r)
 {
   const PlannedDeck d = plan_deck(r.deck, r.options);
   const std::string command = deck::table_command(d.plan, r.options.materials_file);
-  if (r.json) return print_json(to_json(d, command));
+  if (r.json) return print_json(to_json(d, command, r.attraction));
   print_scene(d);
   print_pairs(d);
   print_needs(d);
+  print_adhesion(d, r.attraction);
   print_next(d, command);
 }
 
@@ -256,6 +327,7 @@ void define(Options& command)
   const auto r = std::make_shared<PlanRequest>();
   command.add_option("DECK", r->deck, "LIGGGHTS input script").required();
   r->options.add_to(command, true);
+  define_adhesion(command, r->attraction);
   command.add_flag("--json", r->json, "the plan as JSON");
   command.callback([r] { plan(*r); });
 }

@@ -94,7 +94,7 @@ void press_by_law(PressRequest& r, const Meeting& m)
   RunResult result = granulaw::press_by_law(wall, m.particle.radius, plan_by_planes(r, m.particle));
   if (r.run.json && std::isfinite(error)) result.summary.error_estimate = error;
   r.run.grid = "law";
-  report(r.run, m.particle, result);
+  report(r.run, m, result);
 }
 
 void press(PressRequest r)
@@ -102,6 +102,8 @@ void press(PressRequest r)
   if (!r.planes.empty() || r.by == "law") require_three_dimensions(r.run, r.planes.empty() ? "--by law" : "--planes");
   check(r);
   const Meeting m = read_meeting(r.run);
+  if (m.partner.attraction.work > 0 && in_three_dimensions(r.run, m.particle))
+    fail("--work-of-adhesion", "is computed in two dimensions: no planes, no law, no other shape");
   check_numbers(r);
   if (r.by == "law") return press_by_law(r, m);
   if (!r.law.empty()) fail("--law", "needs --by law", r.law);

@@ -100,7 +100,7 @@ void print_setting(const RunRequest& r, const Particle& particle, double velocit
   }
 }
 
-nlohmann::ordered_json run_json(const std::string& grid, const RunResult& result, const CentreMotion& centre)
+nlohmann::ordered_json run_json(const std::string& grid, const RunResult& result, const CentreMotion& centre, const Attraction& attraction)
 {
   const RunSummary& s = result.summary;
   nlohmann::ordered_json out = collision_json(s);
@@ -109,18 +109,19 @@ nlohmann::ordered_json run_json(const std::string& grid, const RunResult& result
   out["resolution"] = s.resolution;
   out["grids"] = s.grids;
   for (const SummaryNumber& n : summary_numbers)
-    if (!out.contains(n.key)) out[n.key] = s.*n.value;
+    if (!out.contains(n.key) && (attraction.work > 0 || (n.value != &RunSummary::adhesion_loss && n.value != &RunSummary::pull_off))) out[n.key] = s.*n.value;
   out["ripple"] = s.grid_noise;  // its old name
   put_three_dimensions(out, result, centre);
-  return out;
+  return with_adhesion(std::move(out), s, attraction);
 }
 
-void report(const RunRequest& r, const Particle& particle, const RunResult& result, const CentreMotion& centre)
+void report(const RunRequest& r, const Meeting& m, const RunResult& result, const CentreMotion& centre)
 {
   if (!r.output.empty()) write_trace(result, r.output);
   const RunSummary& s = result.summary;
-  if (r.json) return print_json(run_json(grid_name(r, particle), result, centre));
-  print_collision(s, fmt::format("{:.4g} R", s.delta_max / particle.radius));
+  if (r.json) return print_json(run_json(grid_name(r, m.particle), result, centre, m.partner.attraction));
+  print_collision(s, fmt::format("{:.4g} R", s.delta_max / m.particle.radius));
+  print_adhesion(s, m.partner.attraction);
   print_three_dimensions(result, centre);
   if (std::isinf(s.error_estimate))
     fmt::print("estimated error of F and e     not known: no coarser grid is another\n");
@@ -180,6 +181,8 @@ RunIdentity identity(RunIdentity asked, const RunRequest& r, const Meeting& m, c
 {
   asked.insert(asked.end(), {{"--grid", r.grid}, {"--precision", r.precision}, {"--resolution", fmt::format("{}", r.resolution.value_or(0))},
                                 {"--tolerance", fmt::format("{}", r.tolerance.value_or(0))}, {"--no-estimate", r.no_estimate ? "yes" : "no"}});
+  if (const Attraction& a = m.partner.attraction; a.work > 0)
+    asked.insert(asked.end(), {{"--work-of-adhesion", fmt::format("{}", a.work)}, {"--adhesion-range", fmt::format("{}", a.range)}});
   return identity_of(std::move(asked), m.particle, m.partner, options);
 }
 
@@ -196,7 +199,7 @@ void run_and_report(const RunRequest& r, const Meeting& m, const RunIdentity& as
     if (checkpoint) options.checkpoints = checkpoint->store();
     return run(options);
   };
-  report(r, m.particle, run_as_asked(r, has_ramp, in_three_dimensions(r, m.particle), run_on), centre);
+  report(r, m, run_as_asked(r, has_ramp, in_three_dimensions(r, m.particle), run_on), centre);
   if (checkpoint) checkpoint->remove();
 }
 

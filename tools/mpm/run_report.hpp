@@ -22,10 +22,10 @@ struct CentreMotion
 };
 
 /// The object of --json. `grid`: name of the grid.
-nlohmann::ordered_json run_json(const std::string& grid, const RunResult& result, const CentreMotion& centre = {});
+nlohmann::ordered_json run_json(const std::string& grid, const RunResult& result, const CentreMotion& centre = {}, const Attraction& attraction = {});
 
 /// After it: writes the trace if one is asked for, and prints the summary or its JSON.
-void report(const RunRequest& request, const Particle& particle, const RunResult& result, const CentreMotion& centre = {});
+void report(const RunRequest& request, const Meeting& meeting, const RunResult& result, const CentreMotion& centre = {});
 
 /// Makes the run as the request requires it (resolution or tolerance, progress bar, fields, checkpoint) and
 /// reports it. `asked`: the command and its options beyond the request, for the checkpoint's identity.

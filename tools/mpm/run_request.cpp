@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
+#include "adhesion_options.hpp"
 #include "base/atomic_write.hpp"
 #include "base/error.hpp"
 #include "material_file/materials_file.hpp"
@@ -96,6 +98,7 @@ void RunRequest::add_to(Options& command)
   add_accuracy(command, *this);
   add_outputs(command, *this);
   add_effort(command, *this);
+  define_adhesion(command, attraction);
   command.add_flag("--json", json, "print one JSON object instead of the summary, SI units (keys: docs/reference/commands.md)");
 }
 
@@ -124,12 +127,29 @@ RunOptions RunRequest::options(bool three_dimensions) const
   return options;
 }
 
+namespace {
+
+/// The command's, else that of the materials: 2 sqrt(gamma_a gamma_b), with a rigid plane of the particle's own surface energy.
+Attraction attraction_of(const RunRequest& r, const Meeting& m)
+{
+  const Material& own = m.particle.materials.front();
+  const Material& other = m.partner.particle ? m.partner.particle->materials.front() : m.partner.wall ? *m.partner.wall : own;
+  Attraction attraction = r.attraction;
+  if (attraction.work > 0) return attraction;
+  attraction.work = 2 * std::sqrt(own.surface_energy * other.surface_energy);
+  if (own.adhesion_range > 0) attraction.range = own.adhesion_range;
+  return attraction;
+}
+
+}  // namespace
+
 Meeting read_meeting(const RunRequest& r)
 {
   const MaterialsFile file = read_materials(r.materials);
   Meeting meeting{file.particle(r.particle), {}};
   if (!r.against.empty()) meeting.partner.particle = file.particle(r.against);
   if (!r.wall.empty()) meeting.partner.wall = file.material(r.wall);
+  meeting.partner.attraction = attraction_of(r, meeting);
   return meeting;
 }
 

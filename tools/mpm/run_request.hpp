@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "base/attraction.hpp"
 #include "options.hpp"
 #include "solver/runs.hpp"
 
@@ -24,6 +25,7 @@ struct RunRequest
   std::optional<int> shifted_grids;
   int jobs = 1, frames = 40;
   bool json = false, no_estimate = false;
+  Attraction attraction;  // of the command, else of the materials
 
   void add_to(Options& command);
   /// Throws Error where an option, or two together, cannot be used: before anything is read or computed.

@@ -342,14 +342,14 @@ class Contact
 };
 
 Contact contact(const SharedLaw& law, const std::string& pair, double friction, const std::string& tangential, double shear_stiffness, double shear_damping, double elastic_damping,
-    double stretch, bool waves, double radius_a, double radius_b)
+    double stretch, bool waves, double radius_a, double radius_b, double work_of_adhesion, double adhesion_range)
 {
   if (tangential != "history" && tangential != "plastic") fail("tangential", "is no model", tangential, "history or plastic");
   granulaw_pair p;
   granulaw_usual_pair(&p, sizeof p);
   p.friction = friction, p.yields_in_shear = tangential == "plastic", p.shear_stiffness = shear_stiffness;
   p.shear_damping = shear_damping, p.elastic_damping = elastic_damping, p.stretch = stretch, p.no_waves = !waves;
-  p.radius_a = radius_a, p.radius_b = radius_b;
+  p.radius_a = radius_a, p.radius_b = radius_b, p.work_of_adhesion = work_of_adhesion, p.adhesion_range = adhesion_range;
   return {law, p, pair};
 }
 
@@ -431,11 +431,12 @@ PYBIND11_MODULE(_granulaw, m)
       .method("pair", [](const std::shared_ptr<Law>& law, const std::string& pair, std::optional<double> radius, std::optional<double> radius2) { return pair_of(law, pair, radius, radius2); },
           arg("pair") = "", py::kw_only(), arg("radius") = none, arg("radius2") = none)
       .method("contact", [](const std::shared_ptr<Law>& law, const std::string& pair, double friction, const std::string& tangential, double shear_stiffness, double shear_damping,
-                          double elastic_damping, double stretch, bool waves, double radius_a, double radius_b) {
-            return contact(law, pair, friction, tangential, shear_stiffness, shear_damping, elastic_damping, stretch, waves, radius_a, radius_b);
+                          double elastic_damping, double stretch, bool waves, double radius_a, double radius_b, double work_of_adhesion, double adhesion_range) {
+            return contact(law, pair, friction, tangential, shear_stiffness, shear_damping, elastic_damping, stretch, waves, radius_a, radius_b, work_of_adhesion, adhesion_range);
           },
           arg("pair"), py::kw_only(), arg("friction") = 0.0, arg("tangential") = "history", arg("shear_stiffness") = 0.0, arg("shear_damping") = usual_shear_damping,
-          arg("elastic_damping") = usual_elastic_damping, arg("stretch") = 1.0, arg("waves") = true, arg("radius_a") = 0.0, arg("radius_b") = 0.0);
+          arg("elastic_damping") = usual_elastic_damping, arg("stretch") = 1.0, arg("waves") = true, arg("radius_a") = 0.0, arg("radius_b") = 0.0,
+          arg("work_of_adhesion") = 0.0, arg("adhesion_range") = 0.0);
   function(m, "read", [](const py::object& path) { return std::make_shared<Law>(read_law(py::str(path))); }, arg("path"));
   m.def("_table", [](const py::object& materials, const std::vector<std::string>& pairs, double tolerance, double depth, double damage_number, int jobs, const std::string& atlas,
                       const std::function<void(double)>& progress) {

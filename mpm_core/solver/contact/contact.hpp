@@ -34,6 +34,8 @@ class Contact
   /// own loss, proportional to the cell size (3e-3 of the impact energy at V/V_y = 500 with 16 cells, 1e-2 at
   /// 1500).
   double dissipated() const { return dissipated_; }
+  /// Energy that attraction between the surfaces has taken: the work to part them less what they gave back.
+  virtual double attracted() const { return 0; }
   /// Radius of the contact edge after the last correct(), 0 if open.
   virtual double edge_radius(std::span<const Body> bodies) const = 0;
   /// Work that moving planes have done on the body.

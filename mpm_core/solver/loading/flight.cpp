@@ -14,7 +14,8 @@ void Flight::apply(Scene& scene, double time, double dt, bool touching)
   time_ = time + dt;
   if (touching) last_touch_ = time_;
   if (speed > 0) rebounding_ = true;
-  finished_ = rebounding_ && time_ - last_touch_ > leaving_time;
+  sticks_ = attracted_ && rebounding_ && touching && speed < 0;
+  finished_ = sticks_ || (rebounding_ && time_ - last_touch_ > leaving_time);
 }
 
 double Flight::leaving_speed(const Scene& scene) const

@@ -20,12 +20,14 @@ struct LeavingPoint
 class Flight : public Programme
 {
  public:
-  /// `expected_duration`: R/c*, for the progress.
-  explicit Flight(double expected_duration, std::optional<LeavingPoint> point = {})
-      : expected_(expected_duration), point_(std::move(point))
+  /// `expected_duration`: R/c*, for the progress. `attracted`: it may stick, which also ends the run.
+  explicit Flight(double expected_duration, std::optional<LeavingPoint> point = {}, bool attracted = false)
+      : expected_(expected_duration), point_(std::move(point)), attracted_(attracted)
   {
   }
   void apply(Scene& scene, double time, double dt, bool touching) override;
+  /// It came back while it still touched: attraction holds it.
+  bool sticks() const { return sticks_; }
   bool finished() const override { return finished_; }
   Branch branch() const override { return rebounding_ ? Branch::unload : Branch::load; }
   int segment() const override { return rebounding_ ? 1 : 0; }
@@ -38,8 +40,9 @@ class Flight : public Programme
 
   double expected_;
   std::optional<LeavingPoint> point_;
+  bool attracted_;
   double overlap_ = 0, last_touch_ = 0, time_ = 0;
-  bool rebounding_ = false, finished_ = false;
+  bool rebounding_ = false, finished_ = false, sticks_ = false;
 };
 
 }  // namespace granulaw

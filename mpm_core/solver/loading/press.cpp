@@ -105,7 +105,7 @@ void Press::continue_loading(Scene& scene, double dt, double depth)
 /// after two ramps.
 void Press::continue_unloading(double depth)
 {
-  if (!(now_ - last_touch_ > leaving_time || depth < -0.5 * deepest_)) return;
+  if (!(now_ - last_touch_ > leaving_time || (depth < -0.5 * deepest_ && last_touch_ < now_))) return;
   if (stop_ + 1 == plan_.stops.size()) finished_ = true;
   phase_ = Phase::stop;
   start_ = now_;

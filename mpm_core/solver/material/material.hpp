@@ -30,6 +30,8 @@ struct Material
   FlowLaw hardening{};           ///< any other hardening law; hardening_modulus is then unused
   FlowLaw rate{};                ///< rate dependence of the yield stress
   FlowLaw yield_surface{};       ///< empty: von Mises
+  double surface_energy = 0;     ///< J/m2, gamma of each surface: a pair has the work of adhesion 2 sqrt(gamma_a gamma_b)
+  double adhesion_range = 0;     ///< m; 0: the usual one
 
   double e_star() const { return plane_strain_modulus(youngs_modulus, poisson_ratio); }
   /// The result then depends on R/c* against the time scale of the rate law: size invariance is lost.

@@ -48,8 +48,11 @@ struct RunSummary
   double error_estimate =
       0;  ///< relative, of force and e, the larger; from two resolutions; 0: not estimated
   double plastic_strain_max = 0;  ///< largest equivalent plastic strain of any material point at the end
-  double energy_error = 0;  ///< |kinetic + elastic + plastic + contact_loss - put in|/put in, at the end
+  double energy_error = 0;  ///< |kinetic + elastic + plastic + contact_loss + adhesion_loss - put in|/put in, at the end
   double contact_loss = 0;  ///< share of the energy put in that was lost in the contact (contact.hpp)
+  double adhesion_loss = 0;  ///< share of it that attraction between the surfaces took and did not give back
+  double pull_off = 0;       ///< N, largest pull; 0: none
+  bool sticks = false;       ///< an impact after which attraction holds the body: e is 0
   double hourglass = 0;     ///< share of it that the hourglass control holds at the end, part of the elastic
   double grid_noise = 0;  ///< rms of raw F/treated F - 1 over 0.25 to 1 delta_max, what the treatment removed
 };
@@ -75,7 +78,7 @@ struct SummaryNumber
   Unit unit;
   const char* key;  ///< of --json
 };
-inline constexpr std::array<SummaryNumber, 14> summary_numbers{{
+inline constexpr std::array<SummaryNumber, 16> summary_numbers{{
     {&RunSummary::restitution, Combine::none, Unit::one, "e"},
     {&RunSummary::force_max, Combine::none, Unit::force, "force_max_N"},
     {&RunSummary::delta_max, Combine::mean, Unit::length, "delta_max_m"},
@@ -90,6 +93,8 @@ inline constexpr std::array<SummaryNumber, 14> summary_numbers{{
     {&RunSummary::plastic_strain_max, Combine::largest, Unit::one, "plastic_strain_max"},
     {&RunSummary::contact_loss, Combine::largest, Unit::one, "contact_loss"},
     {&RunSummary::hourglass, Combine::largest, Unit::one, "hourglass"},
+    {&RunSummary::adhesion_loss, Combine::mean, Unit::one, "adhesion_loss"},
+    {&RunSummary::pull_off, Combine::mean, Unit::force, "pull_off_N"},
 }};
 
 /// Values of one plane at a sample of the trace; three-dimensional runs, SI.

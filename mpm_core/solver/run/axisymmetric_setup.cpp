@@ -169,6 +169,8 @@ void Collision::check_bodies() const
 void Collision::check_grid() const
 {
   const bool two = partner_.particle || partner_.wall;
+  if (partner_.attraction.work > 0 && (two || !particle_.is_homogeneous_sphere() || !(options_.grid == GridKind::mapped || options_.grid == GridKind::automatic)))
+    fail("--work-of-adhesion", "is computed for a homogeneous sphere and the rigid plane, on the grid 'mapped'");
   if (options_.grid == GridKind::spatial)
     fail("--grid", "is one of three dimensions", name_of(options_.grid), "mapped, rectilinear, updated");
   if (options_.grid == GridKind::mapped)
@@ -323,6 +325,23 @@ std::unique_ptr<Drive> Collision::drive() const
   return std::make_unique<BodyForce>();
 }
 
+/// In units of the run. The surface parts over a length of 1.46 w E*/sigma_0^2, which some cells must divide: with fewer than four the
+/// edge is trapped by the grid (docs/evidence/adhesion.md).
+Attraction Collision::attraction_over(double cell) const
+{
+  Attraction attraction = partner_.attraction;
+  if (attraction.work <= 0) return {};
+  attraction.work /= scale_.stress * scale_.length, attraction.range /= scale_.length;
+  constexpr double least = 4.0, share = 0.25 * 1.46;
+  const double zone = share * attraction.range * attraction.range / attraction.work;
+  if (zone < least * cell)
+    fail("--adhesion-range", fmt::format("the edge parts over {:.2g} cells, and {:g} are needed", zone / cell, least),
+         fmt::format("{:.3g} m", attraction.range * scale_.length),
+         fmt::format("{:.3g} m or more, or {:.2g} times the --resolution", std::sqrt(least * cell * attraction.work / share) * scale_.length,
+                     least * cell / zone));
+  return attraction;
+}
+
 Scene Collision::build(double deepest, int cells, double shift) const
 {
   Scene scene;
@@ -337,7 +356,7 @@ Scene Collision::build(double deepest, int cells, double shift) const
       body.use_single();
     }
   if (scene.bodies.size() == 1 && scene.bodies.front().reference().surface.corners == 1)
-    scene.contact = std::make_unique<NodePlane>();
+    scene.contact = std::make_unique<NodePlane>(attraction_over(block / cells));
   else
     scene.contact =
         std::make_unique<RowContact>(std::make_unique<Surface>(scene.bodies), sweeps_of_revolution);

@@ -143,7 +143,9 @@ RunResult impact(const Particle& particle, const Approach& thrown, const Partner
   check_approach(thrown, scale);
   const double v = thrown.velocity / scale.velocity();
   const Vector3 spin(0, thrown.spin * scale.time(), 0);
-  const double deepest = setup.expected_overlap(v), duration = 2.0 * deepest / v + 2.5;
+  // at no load an elastic sphere is drawn in to a contact of (9 pi w R^2/(2 E*))^(1/3)
+  const double w = partner.attraction.work / (scale.stress * scale.length);
+  const double deepest = std::max(setup.expected_overlap(v), std::pow(4.5 * M_PI * w, 2.0 / 3.0)), duration = 2.0 * deepest / v + 2.5;
 
   const int across = setup.cells(options, deepest);
   return mean_of_shifted_grids(
@@ -168,13 +170,14 @@ RunResult impact(const Particle& particle, const Approach& thrown, const Partner
           else
             throw_body(body, -towards);
         }
-        Flight programme(duration, point);
+        Flight programme(duration, point, partner.attraction.work > 0);
         run.run(programme, {fields, scale, duration}, progress, checkpoint);
         RunSummary& s = run.result.summary;
         s.restitution_raw = scene.separation_velocity() / v;
         s.work_load = scene.bodies.front().reference().copies() * run.energy_start;
         s.work_unload = spatial ? 0 : s.work_load * s.restitution_raw * s.restitution_raw;
         for (std::size_t b = 0; b < meters.size(); ++b) s.work_unload += meters[b].energy(scene.bodies[b]);
+        if (programme.sticks()) s.sticks = true, s.restitution_raw = 0;
         if (spatial) run.result.rebound = rebound_of(scene, meters, thrown, along - v * scene.outward);
         return std::move(run.result);
       });

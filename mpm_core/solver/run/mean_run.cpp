@@ -23,6 +23,7 @@ RunSummary combined(const std::vector<RunResult>& members)
   RunSummary s;
   const double weight = 1.0 / static_cast<double>(members.size());
   double updates = 0;
+  std::size_t sticking = 0;
   for (const RunResult& member : members) {
     const RunSummary& m = member.summary;
     for (const SummaryNumber& n : summary_numbers) {
@@ -32,6 +33,7 @@ RunSummary combined(const std::vector<RunResult>& members)
       if (n.combine == Combine::largest) number = larger(number, m.*n.value);
     }
     s.steps += m.steps;
+    sticking += m.sticks;
     s.points += m.points;
     updates += static_cast<double>(m.points) * static_cast<double>(m.steps);
   }
@@ -41,6 +43,7 @@ RunSummary combined(const std::vector<RunResult>& members)
   s.points /= static_cast<long>(members.size());
   s.point_updates_per_s = updates / s.cpu_s;
   s.restitution = s.restitution_raw;
+  s.sticks = 2 * sticking > members.size();
   return s;
 }
 

@@ -39,6 +39,8 @@ bool in_three_dimensions(const Particle& particle, const Partner& partner, const
   if (options.grid != GridKind::spatial && options.grid != GridKind::automatic)
     fail("--grid", fmt::format("{} needs three dimensions", reason), name_of(options.grid),
          name_of(GridKind::spatial));
+  if (partner.attraction.work > 0)
+    fail("--work-of-adhesion", fmt::format("is computed in two dimensions, and {} needs three", reason ? reason : "this grid"));
   if (partner.wall) fail("partner", "three dimensions have rigid planes and second spheres only", "a wall");
   return true;
 }

@@ -103,7 +103,7 @@ bool Simulation::step(Programme& programme)
   ++in_window_;
   ++steps_;
   time_ += dt_;
-  if (push > 0) last_touch_time_ = time_, last_touch_overlap_ = overlap_;
+  if (push != 0) last_touch_time_ = time_, last_touch_overlap_ = overlap_;
   const bool turned = programme.segment() != segment || programme.finished();
   if (!turned && time_ < window_end_) return false;
   // at equal times since the reversal, whatever the step: samples of shifted grids are averaged one by one
@@ -175,8 +175,10 @@ void Simulation::summarise(const Programme& programme)
   const double put_in = energy_start + programme.work();
   const double peak = std::max({energy_start, std::abs(put_in), loading_work()});
   const double found = total(scene, &Body::kinetic_energy) + total(scene, &Body::strain_energy) +
-                       total(scene, &Body::plastic_work) + scene.contact->dissipated();
+                       total(scene, &Body::plastic_work) + scene.contact->dissipated() + scene.contact->attracted();
   s.energy_error = std::abs(found - put_in) / peak;
+  s.adhesion_loss = scene.contact->attracted() / peak;
+  for (const TraceSample& t : result.trace) s.pull_off = std::max(s.pull_off, -t.force);
   s.contact_loss = scene.contact->dissipated() / peak;
   s.hourglass = total(scene, &Body::hourglass_energy) / peak;
 }

@@ -46,7 +46,7 @@ double advance(Scene& scene, Programme& programme, double time, double kick, dou
   });
   programme.lead(scene, time, dt);                                        // planes get their velocity
   const double impulse = scene.contact->correct(scene.bodies, kick, dt);  // nothing ends the step behind one
-  programme.apply(scene, time, dt, impulse > 0);  // throws, presses, damps; then the overlap does not drift
+  programme.apply(scene, time, dt, impulse != 0);  // throws, presses, damps; then the overlap does not drift
   scene.contact->account(scene.bodies);           // energy of the contact, with the final velocities
   each_body(scene, [&](Body& body) { grid_to_points(body, dt); });
   return impulse;

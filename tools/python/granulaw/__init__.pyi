@@ -128,9 +128,10 @@ class Law:
         radius, infinity: a thick deformable wall."""
     def contact(self, pair: str, *, friction: float = 0.0, tangential: str = "history", shear_stiffness: float = 0.0,
                 shear_damping: float = 0.1, elastic_damping: float = 0.001, stretch: float = 1.0, waves: bool = True,
-                radius_a: float = 0.0, radius_b: float = 0.0) -> Contact:
+                radius_a: float = 0.0, radius_b: float = 0.0, work_of_adhesion: float = 0.0, adhesion_range: float = 0.0) -> Contact:
         """The law step by step. tangential: "history" or "plastic". shear_stiffness: 8 G*, Pa; 0: by the law's moduli. damping:
-        parts of critical. radius_a, radius_b: of most bodies, m, for waves; 0: of the law's own ratio."""
+        parts of critical. radius_a, radius_b: of most bodies, m, for waves; 0: of the law's own ratio.
+        work_of_adhesion: J/m2 of the two surfaces. adhesion_range: m; 0: 0.4 nm."""
 
 
 def read(path: Path) -> Law:

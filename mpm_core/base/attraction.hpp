@@ -1,0 +1,12 @@
+#pragma once
+
+namespace granulaw {
+
+/// Attraction of short range between two surfaces: it falls linearly from 2 work/range where they touch to nothing at a gap of `range`.
+struct Attraction
+{
+  double work = 0;   ///< J/m2, work of adhesion of the pair; 0: none
+  double range = 0;  ///< m
+};
+
+}  // namespace granulaw
