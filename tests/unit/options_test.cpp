@@ -159,7 +159,7 @@ std::string value_of(const Keyword& k)
   static const std::map<std::string_view, std::string> values{
       {"tangentialDampingRatio", "0.1"}, {"tangentialStiffness", "computed"}, {"elasticDamping", "0.01"}, {"stretch", "2"}, {"bodyCompliance", "on"},
       {"heatArea", "law"}, {"wall", "deformable"}, {"stats", "s.json"}, {"energy", "on"}, {"contactMap", "on"}, {"computeDissipatedEnergy", "on"},
-      {"law", "x.h5"}, {"materials", "wax"}, {"beyondRange", "stop"}, {"waves", "on"}};
+      {"law", "x.h5"}, {"materials", "wax"}, {"beyondRange", "stop"}, {"waves", "on"}, {"confinement", "on"}};
   const auto found = values.find(k.name);
   EXPECT_TRUE(found != values.end() || is_one_of(liggghts_keywords, k)) << k.name;
   return found == values.end() ? "on" : found->second;
