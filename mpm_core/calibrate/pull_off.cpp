@@ -4,11 +4,11 @@
 
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 #include "base/error.hpp"
-#include "base/number_in.hpp"
 #include "calibrate/text_table.hpp"
 #include "contact/adhesion.hpp"
 
@@ -22,9 +22,10 @@ std::vector<PullOff> parse_pull_offs(const std::string& text, const std::string&
     fail(source, "is no file of pull-off forces: its first line must be", "", "preload_N,pull_off_N");
   std::vector<PullOff> data;
   for (std::size_t k = 1; k < rows.size(); ++k) {
-    const auto value = [&](std::size_t column) { return column < rows[k].words.size() ? number_in(rows[k].words[column]).value_or(0) : 0.0; };
+    const auto& words = rows[k].words;
+    const auto value = [&](std::size_t column) { return column < words.size() && is_number(words[column]) ? std::strtod(words[column].c_str(), nullptr) : 0.0; };
     const PullOff one{value(0), value(1)};
-    if (rows[k].words.size() != 2 || !(one.preload > 0 && one.pull_off > 0 && std::isfinite(one.preload * one.pull_off)))
+    if (words.size() != 2 || !(one.preload > 0 && one.pull_off > 0 && std::isfinite(one.preload * one.pull_off)))
       fail(fmt::format("{}:{}", source, rows[k].line), "two numbers over 0 are needed: preload and pull-off force, N");
     data.push_back(one);
   }
