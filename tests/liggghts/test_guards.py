@@ -118,8 +118,8 @@ class TestGuards(Deck):
         sizes = {"energy": "on", "contactMap": "on", "computeDissipatedEnergy": "on", "bodyCompliance": "on"}  # values of their own: another number of them
         free = {"tangentialDampingRatio": "0.5", "elasticDamping": "0.2", "heatArea": "law", "stats": "s.json", "beyondRange": "continue", "waves": "off", "law": None,
                 "materials": None, "tangential_damping": "off", "limitForce": "on", "heating_tracking": "off", "heating_tangential_history": "off"}
-        # refused anyway; of other tangential and rolling models; of superquadrics
-        foreign = {"computeElasticPotential", "heating_tangential_no_history", "tangential_reduce", "torsionTorque", "meanCurvature", "gaussianCurvature", "curvatureLimitFactor"}
+        # in test_confinement.py; refused anyway; of other tangential and rolling models; of superquadrics
+        foreign = {"confinement", "computeElasticPotential", "heating_tangential_no_history", "tangential_reduce", "torsionTorque", "meanCurvature", "gaussianCurvature", "curvatureLimitFactor"}
         sources = pathlib.Path(__file__).resolve().parents[2] / "liggghts_plugin"
         said = {word for name in ("deck/keywords.hpp", "contact/mpm_physics.hpp") for word in re.findall(r'Keyword(?: beyond_range)?\{\.name = "(\w+)"', (sources / name).read_text())}
         assert said - foreign == meaning.keys() | sizes.keys() | free.keys()
