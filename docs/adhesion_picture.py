@@ -7,8 +7,11 @@ import argparse
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "examples/common"))
+import one_sentence  # noqa: E402, F401
 import matplotlib
 
 matplotlib.use("Agg")
