@@ -112,20 +112,11 @@ void FixGranulawHistory::post_run()
 void FixGranulawHistory::write_restart(FILE* file)
 {
   if (on_list_) gather();
-  double all[Books::size], mine[Books::size];
-  for (int k = 0; k < Books::size; ++k) mine[k] = books.total(k);
-  MPI_Allreduce(mine, all, Books::size, MPI_DOUBLE, MPI_SUM, world);
-  if (comm->me != 0) return;
-  const int size = sizeof all;
-  fwrite(&size, sizeof size, 1, file);
-  fwrite(all, sizeof all, 1, file);
+  books.write(lmp, file);
 }
 void FixGranulawHistory::restart(char* buffer)
 {
-  books = {};
-  const auto* all = reinterpret_cast<const double*>(buffer);
-  if (comm->me == 0) std::copy_n(all, Books::size, books.own.begin());
-  std::copy_n(all + GRANULAW_MECHANISMS, 4, warned_.begin());
+  books.read(lmp, buffer, warned_);
 }
 
 int FixGranulawHistory::pack_exchange(int i, double* buffer)

@@ -210,19 +210,11 @@ double FixWallGranulaw::compute_vector(int k)
 
 void FixWallGranulaw::write_restart(FILE* file)
 {
-  double all[Books::size];
-  for (int k = 0; k < Books::size; ++k) all[k] = compute_vector(k);
-  if (comm->me != 0) return;
-  const int size = sizeof all;
-  fwrite(&size, sizeof size, 1, file);
-  fwrite(all, sizeof all, 1, file);
+  books_.write(lmp, file);
 }
 void FixWallGranulaw::restart(char* buffer)
 {
-  books_ = {};
-  const auto* all = reinterpret_cast<const double*>(buffer);
-  if (comm->me == 0) std::copy_n(all, Books::size, books_.own.begin());
-  std::copy_n(all + GRANULAW_MECHANISMS, 4, warned_.begin());
+  books_.read(lmp, buffer, warned_);
 }
 int FixWallGranulaw::pack_exchange(int i, double* buffer)
 {

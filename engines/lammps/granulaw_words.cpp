@@ -1,5 +1,7 @@
 #include "granulaw_words.hpp"
 
+#include <algorithm>
+
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -132,14 +134,38 @@ void Books::range(LAMMPS* lmp, double* book, const ContactLaw& law, const granul
                               "deeper law by 'mpm table', or say 'beyond continue'", overlap, atom, range.overlap));
 }
 
+std::array<double, Books::size> Books::sums(MPI_Comm world) const
+{
+  std::array<double, size> all;
+  for (int k = 0; k < size; ++k) all[k] = total(k);
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), size, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+void Books::write(LAMMPS* lmp, FILE* file) const
+{
+  const std::array<double, size> all = sums(lmp->world);
+  if (lmp->comm->me != 0) return;
+  const int bytes = sizeof all;
+  fwrite(&bytes, sizeof bytes, 1, file);
+  fwrite(all.data(), sizeof all, 1, file);
+}
+
+void Books::read(LAMMPS* lmp, const char* buffer, std::array<double, 4>& before)
+{
+  *this = {};
+  const auto* all = reinterpret_cast<const double*>(buffer);
+  if (lmp->comm->me == 0) std::copy_n(all, size, own.begin());
+  std::copy_n(all + GRANULAW_MECHANISMS, 4, before.begin());
+}
+
 void Books::warn(LAMMPS* lmp, const Books& books, std::array<double, 4>& before, const char* where)
 {
   static constexpr const char* what[] = {"contact steps deeper than the law's table", "contacts began faster than the law's velocity axis goes",
                                          "contacts began slower than the law's rate axis begins", "contacts of a size that the file has no law for"};
+  const std::array<double, size> sums = books.sums(lmp->world);
   for (int k = 0; k < 4; ++k) {
-    const double mine = books.total(GRANULAW_MECHANISMS + k);
-    double all = 0.0;
-    MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, lmp->world);
+    const double all = sums[GRANULAW_MECHANISMS + k];
     if (all > before[k] && lmp->comm->me == 0) lmp->error->warning(FLERR, fmt::format("{}: {:.6g} {}", where, all - before[k], what[k]));
     before[k] = all;
   }

@@ -67,6 +67,12 @@ struct Books
   std::array<double, size> own{}, shared{};  ///< shared: contacts that another rank computes, too
 
   double total(int k) const { return own[k] + 0.5 * shared[k]; }
+  /// Of all ranks. Collective.
+  std::array<double, size> sums(MPI_Comm world) const;
+  /// Into a restart file. Collective.
+  void write(LAMMPS* lmp, FILE* file) const;
+  /// What write() wrote; `before` is that of warn().
+  void read(LAMMPS* lmp, const char* buffer, std::array<double, 4>& before);
   /// Books the bits of an answer. A contact more than 5 % beyond the table, or of a wrong size under a rate-dependent law, ends the run.
   static void range(LAMMPS* lmp, double* book, const ContactLaw& law, const granulaw_motion& m, const granulaw_answer& now, LAMMPS_NS::tagint atom);
   /// Warns on rank 0 about contacts out of range since `before`, which is set to the totals of now.

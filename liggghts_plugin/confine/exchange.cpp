@@ -94,14 +94,7 @@ void FixConfined::unpack_restart(int i, int nth)
 
 void FixConfined::follow_numbers()
 {
-  std::vector<int> own;
-  for (int i = 0; i < atom->nlocal; ++i) {
-    int& number = particle(i).number;
-    if (number == atom->tag[i]) continue;
-    own.insert(own.end(), {number, atom->tag[i]});
-    number = atom->tag[i];
-  }
-  const NumberChanges changes(own, world);
+  const NumberChanges changes(atom->tag, atom->nlocal, [this](int i) -> int& { return particle(i).number; }, world);
   if (changes.none()) return;
   for (int i = 0; i < atom->nlocal; ++i) {
     Particle& p = particle(i);

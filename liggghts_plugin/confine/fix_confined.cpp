@@ -12,13 +12,12 @@ namespace granulaw::plugin {
 
 namespace {
 
-/// Steps from one move of the planes between particles to the next: 20 to 100 agree within 1 % (shared/reference of issue 72).
+/// Steps from one move of the planes between particles to the next: 20 to 100 agree within 1 %.
 constexpr int planes_every = 20;
 /// Of the smaller radius: a plane's largest move, and how near surfaces come before the contact is followed, and how far it is.
 constexpr double largest_way = 2e-3, near = 0.02, far = 0.1;
 /// Of the sum of radii: reach of the neighbour lists. A ball in a bed of density .99 bulges to 1.34 of its radius.
 constexpr double list_reach = 1.4;
-
 
 }  // namespace
 
@@ -63,8 +62,7 @@ void FixConfined::init()
     if (counts->second.info.needed) check_material(t, found == law.bodies.end() ? nullptr : &found->second);
     if (found == law.bodies.end() || !found->second.material.yields()) continue;
     const LawMaterial& material = found->second.material;
-    const FlowStress flow{material.yield_stress, material.hardening_modulus, material.flow.strain.empty() ? nullptr : &material.flow};
-    bodies_[at] = std::make_unique<PlasticBody>(found->second.curve, material.youngs_modulus, material.poisson_ratio, flow);
+    bodies_[at] = std::make_unique<PlasticBody>(found->second.curve, material.youngs_modulus, material.poisson_ratio, material.flow_stress());
     yield_[at] = material.yield_stress / unit;
     counts_[at] = &counts->second;
   }

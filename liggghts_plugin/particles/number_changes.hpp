@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -12,8 +13,9 @@ namespace granulaw::plugin {
 class NumberChanges
 {
  public:
-  /// `own`: old and new number of each particle of this rank whose number changed, in turn; old 0: it is new. Collective.
-  NumberChanges(const std::vector<int>& own, MPI_Comm world);
+  /// `tags`: the numbers of this rank's particles now. `kept(i)`: the number of the i-th as its owner knows it, which is set to that
+  /// of now; 0: it is new. Collective.
+  NumberChanges(const int* tags, int count, const std::function<int&(int)>& kept, MPI_Comm world);
 
   bool none() const { return taken_.empty(); }
   /// The number now of what was `number`; 0: it was deleted, and another particle has its number.

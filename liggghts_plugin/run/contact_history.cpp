@@ -117,14 +117,7 @@ void PairHistory::unpack_restart(int i, int nth)
 
 void PairHistory::follow_numbers()
 {
-  std::vector<int> own;  // old and new number of each particle that changed its, in turn
-  for (int i = 0; i < atom->nlocal; ++i) {
-    int& number = number_[static_cast<std::size_t>(i)];
-    if (number == atom->tag[i]) continue;
-    own.insert(own.end(), {number, atom->tag[i]});
-    number = atom->tag[i];
-  }
-  const NumberChanges changes(own, world);
+  const NumberChanges changes(atom->tag, atom->nlocal, [this](int i) -> int& { return number_[static_cast<std::size_t>(i)]; }, world);
   if (changes.none()) return;
   for (int i = 0; i < atom->nlocal; ++i) {
     int kept = 0;

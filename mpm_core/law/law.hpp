@@ -156,8 +156,8 @@ struct PairLaw : PairContact  // its curve is the Law's
   ImpactMeasure measure() const
   {
     const LawMaterial& m = yielding->material;
-    return {m.density, m.yield_stress, yielding->mass_ratio, m.hardening_modulus,
-            m.flow.strain.empty() ? nullptr : &m.flow};
+    const FlowStress flow = m.flow_stress();
+    return {m.density, flow.yield, yielding->mass_ratio, flow.hardening, flow.nodes};
   }
   /// X (dimensionless) that a contact latches which first touches at the relative normal speed `speed` (m/s,
   /// approach positive): 0 without a velocity axis or approach, clamped beyond max_speed().

@@ -20,6 +20,8 @@ struct LawMaterial
   FlowNodes flow{};              ///< of hardening that is not linear; no nodes: it is, or is not known
 
   double e_star() const { return plane_strain_modulus(youngs_modulus, poisson_ratio); }
+  /// Pa. It refers to `flow`.
+  FlowStress flow_stress() const { return {yield_stress, hardening_modulus, flow.strain.empty() ? nullptr : &flow}; }
   bool yields() const { return yield_stress < std::numeric_limits<double>::infinity(); }
 };
 

@@ -38,7 +38,7 @@ PlasticBody body_of(const PairLaw& wall)
 {
   const LawMaterial& m = wall.yielding->material;
   if (!m.yields()) fail("--by", "law needs a material that yields: contacts of an elastic one do not know each other", m.name, "solver");
-  return {*wall.curve, m.youngs_modulus, m.poisson_ratio, {m.yield_stress, m.hardening_modulus, m.flow.strain.empty() ? nullptr : &m.flow}};
+  return {*wall.curve, m.youngs_modulus, m.poisson_ratio, m.flow_stress()};
 }
 
 }  // namespace

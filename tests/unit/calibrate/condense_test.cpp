@@ -33,7 +33,9 @@ TEST(Condense, TheNumberOfDataIsBounded)
   for (const Datum& d : denser.data) {
     rows += d.rows;
     // a mean over 0.01 departs from x^1.5 by 3/4 x^-0.5 0.01^2/24
-    if (d.line <= 10002 && d.x > 0.05) EXPECT_NEAR(d.y, std::pow(d.x, 1.5), 1.5e-5);
+    if (d.line <= 10002 && d.x > 0.05) {
+      EXPECT_NEAR(d.y, std::pow(d.x, 1.5), 1.5e-5);
+    }
   }
   EXPECT_EQ(rows, 20001);
 }
