@@ -46,7 +46,7 @@ html_search_scorer = str(HERE / "search_scorer.js")
 smartquotes = False
 # A question is searched by the words that say what it is about.
 SearchEnglish.stopwords |= {"how", "do", "does", "i", "my", "me", "can", "may", "what", "which", "when", "where", "why", "should", "have", "has", "use", "from",
-                            "mean", "s", "t", "you", "your"}
+                            "mean", "know", "s", "t", "you", "your"}
 # Pygments has no LIGGGHTS; an indented block is shown as it is.
 highlight_language = "none"
 
