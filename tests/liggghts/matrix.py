@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """Every command of LIGGGHTS that touches a contact, a particle or a wall, with mpm and thornton beside stock Hertz.
 
-matrix.py [WORDS ...]   all features, or those whose group or name holds one of WORDS; exits 1 at a defect, or where docs/evidence/liggghts-matrix.md has another outcome.
+matrix.py [WORDS ...]   all features, or those whose group or name holds one of WORDS; exits 1 at a defect, or where docs/evidence/liggghts-matrix.csv has another outcome.
 The environment is that of the other tests (CMakeLists.txt); matrix_scene.py has the scene, matrix_contacts.py, matrix_fixes.py and matrix_runs.py the features."""
+import csv
 import re
 import sys
 import time
@@ -30,11 +31,11 @@ ELASTIC = {"mpm": ((PLAIN, 1), (PLAIN, 2), (ENERGY_ON, 2), (STRETCH, 1), (ALL, 2
 PLASTIC = {"mpm": ((ALL, 1), (ALL, 2)), "thornton": ((ALL, 1), (ALL, 2))}
 COMPOSED = {"mpm": ((ALL, 1), (ALL, 2)), "thornton": ()}
 YIELDING = (("plastic", PLASTIC), ("composed", COMPOSED))
-PAGE = (ROOT / "docs/evidence/liggghts-matrix.md").read_text()
-# outcome, worst first: the page's section
-SECTIONS = {"DEFECT": "Defects", "refused": "Refused", "as hertz": "Refused with hertz as well", "kept": "Works where stock hertz loses histories",
-            "runs": "Runs, with other numbers than hertz", "same": "Works as with hertz"}
-
+# outcome, worst first: its words in the table
+OUTCOMES = {"DEFECT": "defect", "refused": "refused", "as hertz": "refused with hertz as well", "kept": "works where stock hertz loses histories",
+            "runs": "runs, with other numbers than hertz", "same": "works as with hertz"}
+with open(ROOT / "docs/evidence/liggghts-matrix.csv", newline="", encoding="utf-8") as table:
+    STATED = {(row["group"], row["command or option"]): row["outcome"] for row in csv.DictReader(table)}
 
 class Row:
     """Outcome of one feature under Hertz, mpm and thornton, each {words: where}; 'same' where nothing else is said."""
@@ -142,21 +143,18 @@ class Row:
     def kind(self):
         """The worst outcome of either model."""
         found = [said for rows in self.found.values() for said, _ in rows]
-        return next((kind for kind in list(SECTIONS)[:3] if any(kind in said for said in found)), "kept" if self.feature.kept else "same" if self.feature.twin else "runs")
+        return next((kind for kind in list(OUTCOMES)[:3] if any(kind in said for said in found)), "kept" if self.feature.kept else "same" if self.feature.twin else "runs")
 
     def faults(self):
-        """Defects, and a page that has the feature in another section."""
-        section = PAGE.partition(f"## {SECTIONS[self.kind()]}\n")[2].partition("\n## ")[0]
-        shown = re.sub(r"\s+", " ", self.feature.name).replace("|", "\\|") in section
+        """Defects, and a table that has another outcome of the feature."""
+        shown = STATED.get((self.feature.group, re.sub(r"\s+", " ", self.feature.name))) == OUTCOMES[self.kind()]
         return [f"{model}: {said} [{where}]" for model, found in self.found.items() for said, where in found if said.startswith("DEFECT")] + \
-            ([] if shown else [f"the page does not have it under '{SECTIONS[self.kind()]}'"])
-
+            ([] if shown else [f"the table does not have it as '{OUTCOMES[self.kind()]}'"])
 
 def states_apart(one, two):
     """Difference between the trajectory on two ranks and that on one; None: equal. A run without a trajectory is equal to none."""
     one, two = (run.tables.get("state.txt") for run in (one, two))
     return difference({"state": two}, {"state": one}, RANKS)[0] if one and two else "no state.txt"
-
 
 def main():
     words, started, faults, radiating = sys.argv[1:], time.time(), 0, 0
@@ -172,7 +170,6 @@ def main():
     if not words and radiating < len(chosen) / 2:
         sys.exit("matrix.py: waves took no energy from most features: the composed law does not radiate")
     sys.exit(1 if faults else 0)
-
 
 if __name__ == "__main__":
     main()
