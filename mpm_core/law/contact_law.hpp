@@ -21,13 +21,14 @@ class ContactLaw
   /// A body that never yields.
   ContactLaw(const ElasticCorrection& elastic, double end);
 
-  double onset() const { return onset_; }  ///< infinity: elastic
-  double end() const { return end_; }
+  double onset() const { return onset_; }  ///< x of first yield; infinity: elastic
+  double end() const { return end_; }      ///< the largest x that the law holds for
 
   struct Loading
   {
-    double force, stiffness, radius, radius_slope;  ///< slopes by x
+    double force, stiffness, radius, radius_slope;  ///< F, dF/dx, contact radius over R, its slope by x
   };
+  /// First loading to x > 0.
   Loading loading(double x) const;
   double force(double x) const { return loading(x).force; }
   double radius(double x) const { return loading(x).radius; }
@@ -45,8 +46,11 @@ class ContactLaw
   Losses continued_losses(double x) const;
   /// Source of the shape of a reversal at x.
   Curve::Top top(double x) const;
+  /// The unloading curve from a reversal at x.
   Reversal reversal(double x) const { return Curve::reversal(x, top(x)); }
+  /// Work that complete unloading from x returns, over work(x).
   double kept(double x) const { return top(x).kept; }
+  /// 1 - residual overlap/x.
   double span(double x) const { return top(x).span; }
   /// k of UnloadingRadius below a reversal at x.
   std::array<double, 3> unloading_radius(double x) const;

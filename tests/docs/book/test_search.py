@@ -52,6 +52,7 @@ QUESTIONS = (
     ("Breakage?", ("breakage", "fracture", "attrition"), "guide/limits", "breakage, attrition, wear"),
     ("A fluid?", ("CFDEM", "fluid coupling"), "guide/coupling", "fix couple/cfd"),
     ("My own contact law?", ("add a contact model", "new contact law", "write my own law"), "guide/new-contact-model", "A normal model is two files and one line"),
+    ("Calls of the C library?", ("granulaw_advance", "granulaw.h", "API"), "reference/api", "Declarations with their units"),
     ("How accurate?", ("accuracy", "how accurate is a law"), "guide/limits", "within 0.72 % of F_max"),
     ("Can I use clumps?", ("can I use clumps", "clumps", "clump multisphere"), "examples/clumps/README", "They do"),
     ("What does f_granulaw[13] mean?", ("what does f_granulaw[13] mean", "f_granulaw[13]", "f_granulaw"), "reference/fix_granulaw_stats",
@@ -63,14 +64,12 @@ FIRST = 3
 # window of 1280 x 913 on each of the ten pages.
 SCREEN = 1400
 
-
 def opening(page, anchor):
     """The text that the reader sees first."""
     text = page.read_text()
     start = text.index(f'id="{anchor}"') if anchor else text.index('<div class="body" role="main">')
     plain = html.unescape(re.sub(r"<[^>]*>", "", text[text.index(">", start) + 1:]))
     return re.sub(r"\s+", " ", plain)[:SCREEN]
-
 
 def test_found_within_three_results_and_on_the_first_screen(site):
     queries = [query for _, typed, _, _ in QUESTIONS for query in typed]
