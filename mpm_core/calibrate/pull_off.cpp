@@ -88,8 +88,8 @@ FoundAdhesion fit_adhesion(const PairLaw& pair, double r_eff, const std::vector<
     const double r = off(found.work, k), x = std::log(data[k].preload) - mean_load;
     squares += r * r, loads += x * x, product += x * r;
   }
-  constexpr double law_error = 0.10;  // of the pull-off force, two standard deviations (docs/evidence/adhesion.md)
-  double half = law_error;
+  double half = 0;  // the law's errors at neighbouring dents are alike: their mean
+  for (const double depth : depths) half += DentAdhesion(law, found.work).numbers(law, r_eff, depth, range).pull_off_bound() / n;
   if (data.size() > 1) {
     found.scatter = std::sqrt(squares / (n - 1));
     half = std::hypot(half, boost::math::quantile(boost::math::students_t(n - 1), 0.975) * found.scatter / std::sqrt(n));

@@ -20,7 +20,7 @@ std::vector<PullOff> read_pull_offs(const std::string& path);
 /// Work of adhesion that pull-off forces show, J/m2.
 struct FoundAdhesion
 {
-  double work = 0, low = 0, high = 0;  ///< 95 %: scatter of the data, and 10 % of the pull-off force for the law
+  double work = 0, low = 0, high = 0;  ///< 95 %: scatter of the data, and the law's error at their chi
   double scatter = 0;                  ///< standard deviation of ln(measured/law's pull-off)
   double trend = 0, trend_sd = 0;      ///< slope of that over ln preload: 0 where the dent explains the growth
 };

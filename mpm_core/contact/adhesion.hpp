@@ -106,6 +106,10 @@ struct AdhesionNumbers
   double chi = 0;    ///< w E*/(p_m^2 a); 0: it does not yield
   double pressure = 0;  ///< p_m, Pa
 
+  /// 95 % of the pull-off force of a dent, relative: a tenth where chi is over 0.03, more as sqrt(1/chi) below; from chi = 0.005 on
+  /// down the quarter by which the solver's own forces scatter (docs/evidence/adhesion.md). Elastic contacts: a tenth, of the range.
+  double pull_off_bound() const { return chi > 0.0 ? std::clamp(0.1 * std::sqrt(0.03 / chi), 0.1, 0.25) : 0.1; }
+
   static constexpr double largest_S = 0.8, largest_chi = 0.2, least_tabor = 1.0;
 };
 

@@ -227,9 +227,11 @@ TEST(Adhesion, PullOffIsTheSolvers)
     const BodyLaw body = law_of(v[0], v[1]);
     const Tabulated law = wall(body);
     const double force = 4.0 / 3.0 * body.curve.force(v[2]);
-    const double off = DentAdhesion(law, v[3]).pull_off(law, 1.0, v[2]) / (force * v[5]) - 1;
+    const DentAdhesion piece(law, v[3]);
+    const double off = piece.pull_off(law, 1.0, v[2]) / (force * v[5]) - 1;
     std::printf("%s,%+.1f %%\n", line.c_str(), 100 * off);  // a row of the page
     if (v[4] > 0.25) continue;
+    EXPECT_LT(std::abs(off), piece.numbers(law, 1.0, v[2], 1.0).pull_off_bound()) << line;
     const int which = v[4] > 0.02;
     sum[which] += off * off, ++count[which], worst[which] = larger(worst[which], std::abs(off));
   }
