@@ -40,7 +40,8 @@ PAIR = [
     pair("cohesion sjkr2", "tangential history cohesion sjkr2", more_properties=COHESION),
     pair("cohesion sjkr2, rolling_friction epsd2", "tangential history cohesion sjkr2 rolling_friction epsd2", more_properties=COHESION),
     pair("cohesion easo/capillary/viscous", "tangential history cohesion easo/capillary/viscous", more_properties=LIQUID, refused=""),
-    pair("cohesion washino/capillary/viscous", "tangential history cohesion washino/capillary/viscous", more_properties=LIQUID, refused=""),
+    # With the moduli that a stretch stands for stock hertz itself differs between one rank and two, by a quarter of a coordinate: its liquid bridges part at other times.
+    pair("cohesion washino/capillary/viscous", "tangential history cohesion washino/capillary/viscous", more_properties=LIQUID, twin="plain"),
     pair("surface default", "tangential history surface default"),
     pair("surface multicontact", "tangential history surface multicontact", refused="",
          more_walls="fix mc all multicontact/halfspace\n"),
