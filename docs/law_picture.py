@@ -19,6 +19,7 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[1] / "examples/common"))
 import one_sentence  # noqa: E402, F401
 import matplotlib
+from pictures import COLOURS
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -33,19 +34,15 @@ HERTZ_E = 0.55        # coefficientRestitution of the hopper's Hertz deck
 PRESSURE = 1.6 * YIELD                                     # Thornton's yield pressure
 ONSET = (np.pi * PRESSURE / (2 * E_STAR)) ** 2 * RADIUS    # overlap at which it is reached
 YIELD_SPEED = (np.pi / (2 * E_STAR)) ** 2 * np.sqrt(2 / (5 * DENSITY)) * PRESSURE**2.5
-COLOURS = {"mpm": "tab:blue", "thornton": "tab:orange", "hertz": "tab:green"}
-
 
 def hertz(overlap):
     return 4 / 3 * E_STAR * np.sqrt(RADIUS) * overlap**1.5
-
 
 def hertz_collision():
     """Loading and, without damping, the same way back."""
     largest = (15 * MASS * SPEED**2 / (16 * E_STAR * np.sqrt(RADIUS))) ** 0.4
     overlap = np.linspace(0, largest, 300)
     return overlap, hertz(overlap)
-
 
 def thornton_collision():
     """Formulas: docs/reference/pair_gran_model_thornton.md."""
@@ -61,11 +58,9 @@ def thornton_collision():
     return (np.concatenate((overlap[:end + 1], overlap[end] - recovered + back)),
             np.concatenate((force[:end + 1], 4 / 3 * E_STAR * np.sqrt(radius) * back**1.5)))
 
-
 def thornton_restitution(speeds):
     x = np.minimum(YIELD_SPEED / speeds, 1.0)
     return np.where(x < 1, np.sqrt(6 * np.sqrt(3) / 5) * np.sqrt(1 - x**2 / 6) * (x / (x + 2 * np.sqrt(6 / 5 - x**2 / 5))) ** 0.25, 1.0)
-
 
 class Tool:
     """mpm, and the files that it makes for the picture."""
@@ -102,7 +97,6 @@ class Tool:
         return (np.concatenate((loading, residual + u * (largest - residual))),
                 np.concatenate((at("force_N", loading), float(at("force_N", largest)) * phi)))
 
-
 def draw_collision(axis, tool):
     trace = tool.folder / "impact.csv"
     tool.impact(SPEED, trace)
@@ -116,10 +110,9 @@ def draw_collision(axis, tool):
     axis.plot(1e6 * x, f, color=COLOURS["thornton"], label="Thornton")
     x, f = tool.collision()
     axis.plot(1e6 * x, f, color=COLOURS["mpm"], label="computed law")
-    axis.plot([1e6 * float(r[overlap]) for r in points], [float(r[force]) for r in points], "k.", ms=4, label="material point method")
+    axis.plot([1e6 * float(r[overlap]) for r in points], [float(r[force]) for r in points], "k.", ms=4, label="computed in full")
     axis.set(xlabel="overlap, micrometres", ylabel="force, N", title=f"one collision at {SPEED:g} m/s", xlim=(0, None), ylim=(0, None))
     axis.legend(fontsize=8)
-
 
 def draw_restitution(axis, tool):
     speeds = np.geomspace(3e-3, 5, 60)
@@ -127,10 +120,9 @@ def draw_restitution(axis, tool):
     axis.plot(speeds, thornton_restitution(speeds), color=COLOURS["thornton"], label="Thornton")
     axis.plot(speeds, [tool.replay(v)["e"] for v in speeds], color=COLOURS["mpm"], label="computed law")
     own = (0.03, 0.1, 0.3, 1, 3)
-    axis.plot(own, [tool.impact(v, tool.folder / "x.csv")["e"] for v in own], "ko", ms=4, label="material point method")
+    axis.plot(own, [tool.impact(v, tool.folder / "x.csv")["e"] for v in own], "ko", ms=4, label="computed in full")
     axis.set(xscale="log", xlabel="approach speed, m/s", ylabel="e", ylim=(0, 1.03), title="restitution")
     axis.legend(fontsize=8, loc="lower left")
-
 
 def draw_contacts(axis, stats):
     found = json.loads(Path(stats).read_text())["pair"]["contact_map"]
@@ -138,10 +130,9 @@ def draw_contacts(axis, stats):
     image = axis.pcolormesh(found["speed_lower_edge"], found["overlap_lower_edge"], np.ma.masked_equal(count, 0).T, norm=matplotlib.colors.LogNorm(),
                             cmap="viridis", shading="nearest")
     axis.axvline(2 * YIELD_SPEED, color="k", lw=0.8, ls="--")
-    axis.text(2.2 * YIELD_SPEED, axis.get_ylim()[0] * 2, "customary\nyield speed", fontsize=7)
+    axis.text(2.2 * YIELD_SPEED, axis.get_ylim()[0] * 2, "contacts\ndent", fontsize=8)
     axis.set(xscale="log", yscale="log", xlabel="approach speed, m/s", ylabel="largest overlap / R*", title="contacts of a hopper")
     axis.figure.colorbar(image, ax=axis, label="number of contacts")
-
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -160,7 +151,6 @@ def main():
         axis.grid(alpha=0.2)
     figure.tight_layout()
     figure.savefig(arguments.output, dpi=95)
-
 
 if __name__ == "__main__":
     main()

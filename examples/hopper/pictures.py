@@ -7,7 +7,7 @@ import numpy as np
 
 import measures
 
-COLOURS = {"hertz": "#4477aa", "thornton": "#ccbb44", "mpm": "#aa3377"}
+COLOURS = {"hertz": "0.35", "thornton": "tab:orange", "mpm": "tab:blue"}  # of examples/common/pictures.py
 
 
 def curves(runs, scene, path):
@@ -35,7 +35,6 @@ def curves(runs, scene, path):
     figure.savefig(path, dpi=90)
     plt.close(figure)
 
-
 def render(bed, extent, pixels_per_metre, top_speed):
     """The half behind the plane y = 0 seen along +y, each sphere shaded, coloured by speed."""
     (x0, x1), (z0, z1) = extent
@@ -61,7 +60,6 @@ def render(bed, extent, pixels_per_metre, top_speed):
         image[i0:i1, j0:j1][seen] = (light[..., None] * colours[k])[seen]
         patch[seen] = distance[seen]
     return image
-
 
 def particles(runs, scene, path, top_speed=1.0):
     """Each model while filling, at rest, and while flowing; the same clock for all."""

@@ -23,11 +23,9 @@ SIZES = {"full": dict(particles=100000, cylinder=0.100, fill=0.6, flow=5.0),
          "usual": dict(particles=20000, cylinder=0.060, fill=0.25, flow=0.6),
          "quick": dict(particles=250, cylinder=0.036, fill=0.06, flow=0.08)}
 
-
 def beverloo(bulk=BULK):
     """0.58 rho_b sqrt(g) (D - 1.4 d)^2.5, kg/s (Beverloo et al. 1961)."""
     return 0.58 * bulk * math.sqrt(9.81) * (2 * ORIFICE - 1.4 * 2 * RADIUS)**2.5
-
 
 def measure(folder, scene):
     s = readings.series(folder)
@@ -46,6 +44,16 @@ def measure(folder, scene):
     found["million particle-steps a second"] = float(np.sum(s["atoms"][1:] * np.diff(t)) / scene["dt"] / seconds / 1e6)
     return found
 
+def draw_rates(axis, rates):
+    """Mean and standard error of each model; `rates`: {model: one for each seed}."""
+    for place, (model, values) in enumerate(rates.items()):
+        error = np.std(values, ddof=1) / math.sqrt(len(values)) if len(values) > 1 else 0
+        if values:
+            axis.errorbar(place, np.mean(values), error, fmt="o", capsize=4, color=pictures.colour(model))
+    axis.axhline(1, color="k", lw=0.7, ls="--")
+    axis.text(len(rates) - 0.55, 1.003, "Beverloo", fontsize=8, ha="right")
+    axis.set(xlim=(-0.5, len(rates) - 0.5), ylabel="discharge rate / Beverloo's", title="± standard error over the seeds")
+    axis.set_xticks(range(len(rates)), rates)
 
 def main(argv=None):
     parser = sweep.options(__doc__, "out/silo", seeds=3)
@@ -71,15 +79,15 @@ def main(argv=None):
             curves.setdefault(name, []).append(readings.series(done))
     samples = write_tables(out, "Silo", f"{size['particles']} spheres, {args.seeds} seeds, {args.ranks} ranks. Beverloo: {beverloo():.3f} kg/s at a bulk density "
                            f"of {BULK:g} kg/m3.", tables)
-    figure, axes = pictures.panels(1, 6)
+    figure, axes = pictures.panels(2, 4.5)
     for m, runs in curves.items():
         n = min(len(s["time"]) for s in runs)
         pictures.band(axes[0], runs[0]["time"][:n], [s["atoms"][:n] for s in runs], m)
     axes[0].set(xlabel="time, s", ylabel="particles in the silo")
     axes[0].legend()
+    draw_rates(axes[1], {m: [row["rate / Beverloo"] for row in rows if "rate / Beverloo" in row] for m, rows in tables.items()})
     pictures.save(figure, out / "silo.png")
     return samples
-
 
 if __name__ == "__main__":
     main()

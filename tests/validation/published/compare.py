@@ -39,9 +39,9 @@ INPUTS = {"density_kg_m3": "density", "youngs_modulus_Pa": "youngs_modulus", "po
 PLACES = ("delta_over_R", "speed_m_s")
 QUANTITIES = ("F_over_YR2", "a_over_R", "pressure_over_Y", "F_over_Hertz", "e")
 RESOLVED = 0.15  # part of a press's overlaps that counts: its cells suit the last contact, below they are too wide
+NAMES = {"F_over_YR2": "force", "F_over_Hertz": "force", "a_over_R": "contact radius", "pressure_over_Y": "mean pressure", "e": "e"}
 MEANING = {"law": "free sphere on a rigid wall, law", "press": "sphere between planes, solver", "pair": "sphere on the flat, law",
            "impact": "collision, law"}
-
 
 class Set:
     """One published set: its keys and its rows."""
@@ -100,7 +100,6 @@ class Set:
         text = self.keys.get(f"allowed {quantity}", "")
         return float(text.partition(":")[0]) if text else None
 
-
 class Solver:
     """mpm, in a folder for its files."""
 
@@ -128,14 +127,12 @@ class Solver:
         path.write_text("\n".join(lines) + "\n")
         return path
 
-
 def e_star(body):
     """E* of sphere and flat, Pa; a flat without a modulus is rigid."""
     soft = (1 - body["poisson_ratio"]**2) / body["youngs_modulus"]
     if "flat_youngs_modulus" in body:
         soft += (1 - body["flat_poisson_ratio"]**2) / body["flat_youngs_modulus"]
     return 1 / soft
-
 
 def exported(solver, file, pair, radius):
     """Overlap/R, force in N and contact radius/R of a law, rows even in overlap^(1/4)."""
@@ -146,7 +143,6 @@ def exported(solver, file, pair, radius):
     rows = list(csv.DictReader(lines))
     return (np.array([float(r["overlap_m"]) for r in rows]) / radius, np.array([float(r["force_N"]) for r in rows]),
             np.array([float(r["contact_radius_m"]) for r in rows]) / radius)
-
 
 def curve_of(solver, way, body, depth):
     """Overlap/R, force in N and contact radius/R of the body by one of the ways, up to the overlap/R `depth`."""
@@ -164,14 +160,12 @@ def curve_of(solver, way, body, depth):
     solver("table", materials, "--pair", pair, "--depth", depth, "--damage-number", 0, "-o", file)
     return exported(solver, file, pair, radius)
 
-
 def window(x, f, at, share=0.04):
     """A press's value at an overlap: a straight line through the rows within 4 % of it, which the contact edge's steps scatter about."""
     near = np.abs(x / at - 1) < share
     if near.sum() < 4:
         return float(np.interp(at, x, f))
     return float(np.polyval(np.polyfit(x[near] - at, f[near], 1), 0))
-
 
 def computed(curve, way, body, place, at, quantity):
     """One quantity by one of the ways at overlap/R `at`, or where the contact radius is `at`; None beyond the curve."""
@@ -190,11 +184,9 @@ def computed(curve, way, body, place, at, quantity):
     return {"F_over_YR2": f / (strength * r**2), "a_over_R": a, "pressure_over_Y": f / (math.pi * (a * r)**2 * strength),
             "F_over_Hertz": f / (4 / 3 * e_star(body) * r**2 * at**1.5)}[quantity]
 
-
 def impact(solver, body, file, speed):
     partner = ["--pair", "m:flat", "--radius2", "inf"] if "flat_youngs_modulus" in body else ["--pair", "m:wall"]
     return json.loads(solver("law", file, *partner, "--radius", body["radius"], "--velocity", speed, "--json"))["e"]
-
 
 def jobs(published, ends):
     """(way, overlap/R to go to) of a body; a press whose rows span more than it resolves is made twice, the second to an eighth."""
@@ -203,7 +195,6 @@ def jobs(published, ends):
         yield way, deepest
         if way == "press" and min(ends) < RESOLVED * deepest and published.place() == "delta_over_R":
             yield way, deepest / 8
-
 
 def compare(solver, published):
     """Rows (set, case, quantity, way, place, at, published, computed, ratio) of a set, and sentences about what is not computed."""
@@ -245,7 +236,6 @@ def compare(solver, published):
         print(f"{published.name}: {len(out)} numbers", file=sys.stderr, flush=True)
     return out, left
 
-
 def summary(sets, rows):
     """A line for each set, quantity and way: how many, range and median of the ratio, share within what is allowed."""
     lines = []
@@ -263,7 +253,6 @@ def summary(sets, rows):
                 lines.append((max(off) / bound if bound else 0, published, quantity, way, values, bound, inside))
     return sorted(lines, key=lambda line: -line[0])
 
-
 def table(lines):
     out = ["| set | kind | quantity | computed by | points | computed/published | median | allowed | within |", "|---|---|---|---|---|---|---|---|---|"]
     for _, published, quantity, way, values, bound, inside in lines:
@@ -273,7 +262,6 @@ def table(lines):
         out.append(f"| `{published.name}` | {published.keys['kind']} | {quantity} | {MEANING[way]} | {len(values)} | {span} | {median} | "
                    + (f"{bound:g} | {inside} of {len(values)} |" if bound else "not stated | |"))
     return "\n".join(out) + "\n"
-
 
 def check(path, sets, rows):
     """Ends with 1 where a computed number differs from the stored one. The atlas is the same, so only rounding may: 1e-3."""
@@ -290,14 +278,15 @@ def check(path, sets, rows):
     print(f"{len(found)} numbers, {len(wrong)} differ from {path}")
     sys.exit(1 if wrong or not found else 0)
 
-
 def draw(path, published, rows):
+    if len(rows) < 3:  # the table has them
+        return
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     quantities = published.quantities()
-    figure, axes = plt.subplots(1, len(quantities), figsize=(5.2 * len(quantities) + 2, 3.8), squeeze=False)
+    figure, axes = plt.subplots(1, len(quantities), figsize=(4.6 * len(quantities) + 3, 3.8), squeeze=False)
     marks = {"law": "o", "press": "s", "pair": "D", "impact": "^"}
     for axis, quantity in zip(axes[0], quantities):
         own = [r for r in rows if r["quantity"] == quantity]
@@ -311,18 +300,17 @@ def draw(path, published, rows):
                               mfc="w" if way == "law" else f"C{k}", label=f"{MEANING[way]}" + (f", E*/Y {stiffness}" if stiffness else ""))
         bound, middle = published.allowed(quantity), 0 if quantity == "e" else 1
         if bound:
-            axis.axhspan(middle - bound, middle + bound, color="0.92")
+            axis.axhspan(middle - bound, middle + bound, color="0.92", label="allowed")
         axis.axhline(middle, color="k", lw=0.6)
         axis.set_xlabel({"delta_over_R": "overlap/R", "speed_m_s": "speed, m/s", "a_over_R": "contact radius/R"}[published.place()])
-        axis.set_ylabel(f"{quantity}: computed " + ("less" if quantity == "e" else "over") + " published")
+        axis.set_ylabel(NAMES[quantity] + (", computed less published" if quantity == "e" else ", computed over published"))
         if len(own) > 2 and max(float(r["at"]) for r in own) > 20 * min(float(r["at"]) for r in own):
             axis.set_xscale("log")
-    axes[0][-1].legend(fontsize=6, loc="center left", bbox_to_anchor=(1, 0.5))
+    axes[0][-1].legend(*axes[0][0].get_legend_handles_labels(), fontsize=8, loc="center left", bbox_to_anchor=(1, 0.5))
     figure.suptitle(published.keys["title"], fontsize=10)
     figure.tight_layout()
     figure.savefig(path, dpi=110)
     plt.close(figure)
-
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -367,7 +355,6 @@ def main():
     print(table(summary(sets, rows)), end="")
     for sentence in left:
         print(f"not computed: {sentence}")
-
 
 if __name__ == "__main__":
     main()

@@ -26,7 +26,6 @@ E_STAR, G_STAR, RADIUS, DENSITY, FRICTION, SPEED, E_N = 63e9, 13.5e9, 2.5e-3, 40
 MASS = DENSITY * 4 / 3 * math.pi * RADIUS**3
 INERTIA = 0.4 * MASS * RADIUS**2
 
-
 class Spring:
     def __init__(self, widest, parts):
         self.stretch = 0.0
@@ -35,7 +34,6 @@ class Spring:
         stiffness, normal = 8 * G_STAR * math.sqrt(RADIUS * overlap), 4 / 3 * E_STAR * math.sqrt(RADIUS) * overlap**1.5
         self.stretch = max(-FRICTION * normal / stiffness, min(FRICTION * normal / stiffness, self.stretch + slide))
         return normal, stiffness * self.stretch
-
 
 class Resolved:
     def __init__(self, widest, parts):
@@ -50,9 +48,7 @@ class Resolved:
         self.stretch = np.clip(self.stretch + slide, -most, most)
         return normal.sum(), stiffness * self.stretch.sum()
 
-
 MODELS = {"spring": Spring, "resolved": Resolved}
-
 
 def impact(model, angle, steps=4000, parts=400):
     """e_t and spin after an impact at `angle` degrees from the normal."""
@@ -70,14 +66,12 @@ def impact(model, angle, steps=4000, parts=400):
         along -= tangential / MASS * dt
         spin += tangential * RADIUS / INERTIA * dt
 
-
 def rows():
     with open(HERE / "kharaz_2001.csv") as file:
         for r in csv.DictReader(line for line in file if not line.startswith("#")):
             found = {m: impact(m, float(r["angle_deg"]))[r["quantity"] == "spin"] for m in MODELS}
             yield {"quantity": r["quantity"], "digitisation": r["digitisation"], "angle_deg": r["angle_deg"], "measured": r["value"],
                    **{m: f"{v:.5g}" for m, v in found.items()}}
-
 
 def draw(path, table):
     import matplotlib
@@ -89,13 +83,12 @@ def draw(path, table):
         for mark, which in (("o", "A"), ("s", "B")):
             some = [r for r in table if r["quantity"] == quantity and r["digitisation"] == which]
             axis.plot([float(r["angle_deg"]) for r in some], [float(r["measured"]) for r in some], mark, ms=4, mfc="w", color="k", label=f"measured, digitisation {which}")
-        for model, colour in (("spring", "tab:orange"), ("resolved", "tab:blue")):
+        for model, colour in (("spring", "0.35"), ("resolved", "tab:blue")):
             axis.plot(angles, [impact(model, a)[k] for a in angles], color=colour, label=model)
         axis.set(xlabel="angle from the normal, degrees", ylabel={"e_t": "tangential velocity after/before", "spin": "spin after, rad/s"}[quantity])
     axes[0].legend(fontsize=7)
     figure.savefig(path, dpi=100)
     plt.close(figure)
-
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -120,7 +113,6 @@ def main():
     draw(words.output / "oblique.png", table)
     for r in table:
         print("  ".join(r.values()))
-
 
 if __name__ == "__main__":
     main()
