@@ -57,6 +57,13 @@ struct Moduli
   }
 };
 
+double strain_energy(const PlasticBody& body, const std::array<double, 6>& e)
+{
+  const Moduli m = Moduli::of(body);
+  const double trace = e[0] + e[1] + e[2];
+  return 0.5 * (m.lame * trace * trace + m.twice_shear * along(e, e));
+}
+
 double volume_at_rest(const PlasticBody& body) { return confined_volume * std::exp(-closing / body.bulk_modulus()); }
 double cell_pressure(const PlasticBody& body, double volume) { return std::max(body.bulk_modulus() * std::log(volume_at_rest(body) / volume), 0.0); }
 double cell_energy(const PlasticBody& body, double volume)
@@ -105,7 +112,9 @@ std::span<const SideAnswer> ConfinedParticle::advance(const PlasticBody& body, s
   const bool stale = move(steps);
   if (stale) refresh(body, steps, room);
   press_closed_cell(body, stale);
+  double lag = strain_energy(body, state.strain);  // the mean strain balances the trial forces: energy that the flow leaves over
   predict(body, steps, room);
+  lag -= strain_energy(body, state.strain);
   flow(modes_of(room), room);
   double pressure = 0, way = 0;
   room.answers.resize(sides.size());
@@ -119,11 +128,13 @@ std::span<const SideAnswer> ConfinedParticle::advance(const PlasticBody& body, s
     s.touched |= force > 0;
     s.gap = force > 0 || !s.touched ? 0.0 : trial > 0 ? -force / s.stiffness : std::max(room.gaps[i] + v, 0.0);
     dissipate(body, 0.5 * (before + s.force) * v);
+    lag += 0.5 * (before + s.force) * (steps[i].advance - (s.force - before) / s.stiffness - v);
     room.answers[i] = {s.force + c.area * bulk_, s.stiffness + (bulk_ > 0 ? 3.0 * body.bulk_modulus() * c.area * c.area / volume_ : 0.0),
                        trial > 0 ? std::max(v, 0.0) : 0.0, c.area};
     pressure += s.force * c.lever / 3.0;
     way = std::max(way, std::abs(steps[i].advance));
   }
+  state.dissipated += lag;
   pressure_ = pressure;
   state.mean_pressure += (pressure - state.mean_pressure) * std::min(1.0, way / memory);
   state.share = std::max(state.share, std::clamp((pressure - begins_at) / (complete_at - begins_at), 0.0, 1.0));
@@ -450,10 +461,7 @@ double ConfinedParticle::stored(const PlasticBody& body) const
   for (const SideState& s : sides)
     if (s.force > 0) all += confined() ? spring_energy(s.force, s.stiffness) : body.pair(s.overlap, s.deepest).stored;
   if (!confined()) return all;
-  const Moduli m = Moduli::of(body);
-  const std::array<double, 6>& e = state.strain;
-  const double trace = e[0] + e[1] + e[2];
-  all += 0.5 * (m.lame * trace * trace + m.twice_shear * along(e, e));
+  all += strain_energy(body, state.strain);
   return state.closed ? all + cell_energy(body, state.cell_volume) : all;
 }
 

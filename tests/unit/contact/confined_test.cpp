@@ -50,7 +50,7 @@ struct Press
   ConfinedRoom room;
   std::vector<SideStep> steps;
   std::vector<double> overlap, force;
-  double work = 0, least_rise = 0;
+  double work = 0;
 
   Press(const PlasticBody& b, const std::vector<Vector>& normals) : body(b), overlap(normals.size(), 0.0), force(normals.size(), 0.0)
   {
@@ -67,13 +67,11 @@ struct Press
     const int count = std::max(1, static_cast<int>(std::ceil(way / step)));
     for (std::size_t i = 0; i < target.size(); ++i) steps[i].advance = (target[i] - overlap[i]) / count;
     for (int k = 0; k < count; ++k) {
-      const double before = particle.state.dissipated;
       const auto now = particle.advance(body, steps, room);
       for (std::size_t i = 0; i < target.size(); ++i) {
         work += 0.5 * (force[i] + now[i].force) * steps[i].advance;
         force[i] = now[i].force;
       }
-      least_rise = std::min(least_rise, particle.state.dissipated - before);
     }
     overlap = target;
   }
@@ -166,7 +164,7 @@ TEST(Confined, BecomingConfinedNeitherJumpsNorGains)
     }
     EXPECT_EQ(press.particle.state.share, 1.0);
     EXPECT_LT(steepest, 2.0);  // elastic ways of one step: a jump would be many
-    EXPECT_NEAR(press.booked() / press.work, 1.0, 1e-3);  // first order in the step: 1e-4
+    EXPECT_NEAR(press.booked() / press.work, 1.0, 1e-6);  // the pair law's tables
   }
 }
 
@@ -174,12 +172,13 @@ TEST(Confined, EnergyIsBookedInPressingAndUnloading)
 {
   for (const Solid& s : {Solid(30), Solid(100), Solid(1000), Solid(100, 0.1), Solid(100, 0.45), Solid(100, 0.3, 0.1)}) {
     Press cubic(s.body, cube()), die(s.body, cube());
-    cubic.to(std::vector(6, 0.19)), die.to({0, 0, 0, 0, 0.3, 0.3});
-    EXPECT_NEAR(cubic.booked() / cubic.work, 1.0, 2e-3);
-    EXPECT_NEAR(die.booked() / die.work, 1.0, 2e-3);
+    constexpr double bound = 2e-4;  // where no cell closes 1e-8; in a closed one a refresh changes the areas within a step: 9e-5
+    cubic.to(std::vector(6, 0.21)), die.to({0, 0, 0, 0, 0.3, 0.3});
+    EXPECT_NEAR(cubic.booked() / cubic.work, 1.0, bound);
+    EXPECT_NEAR(die.booked() / die.work, 1.0, bound);
     cubic.to(std::vector(6, 0.0)), die.to(std::vector(6, 0.0));
-    EXPECT_NEAR(cubic.booked() / cubic.work, 1.0, 2e-3);  // the step's error: 5e-4 at most, half of it at half the step
-    EXPECT_NEAR(die.booked() / die.work, 1.0, 2e-3);
+    EXPECT_NEAR(cubic.booked() / cubic.work, 1.0, bound);
+    EXPECT_NEAR(die.booked() / die.work, 1.0, bound);
     EXPECT_EQ(cubic.particle.pressure(), 0.0);
   }
 }
