@@ -537,6 +537,7 @@ def test_format():
             if isinstance(item, h5py.Dataset) and name != "pairs":
                 assert "unit" in item.attrs and "legend" in item.attrs, name
         file.visititems(visit)
+    text += "".join((ROOT / f"docs/reference/{name}.csv").read_text() for name in ("certificate", "orientations"))
     undocumented = {n for n in names - {"powder"} if n.replace("_slope", "") not in text and not n.startswith(
         ("solver_error", "verification_"))}
     assert not undocumented, undocumented

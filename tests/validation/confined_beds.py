@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tables of docs/guide/pressing.md and of `confinement` in docs/reference/pair_gran_model_mpm.md: LIGGGHTS against resolved spheres.
+"""Tables of docs/guide/pressing.md and of docs/evidence/confined.md: LIGGGHTS against resolved spheres.
 
     confined_beds.py packing|die [--step 0.05] [--words "confinement on"] [--tangential history] [--ranks N]
 
@@ -19,14 +19,11 @@ R, E, NU, DENSITY, YIELD, RATE = 1e-3, 9.1e9, 0.3, 1500.0, 1e8, 0.001
 UNIT = R / math.sqrt(E / (1 - NU**2) / DENSITY)  # s, R/c*
 WIDTH, HEIGHT = 5.945, 7.729                      # of the die, over R
 
-
 def rows(path):
     return list(csv.DictReader(line for line in path.read_text().splitlines() if not line.startswith("#")))
 
-
 def points(path):
     return [[float(x) * R for x in line.split()] for line in path.read_text().splitlines()]
-
 
 def head(options, boundary, box, types):
     each = " ".join(["{}"] * types)
@@ -37,11 +34,9 @@ def head(options, boundary, box, types):
             f"fix mu all property/global coefficientFriction peratomtypepair {types}{' 0.3' * types**2}\n"
             f"pair_style gran model mpm tangential {options.tangential} law law.h5 materials{' powder' * types} beyondRange continue {options.words}\npair_coeff * *\n")
 
-
 def spheres(places):
     return ("".join(f"create_atoms 1 single {x!r} {y!r} {z!r} units box\n" for x, y, z in places) +
             f"set group all diameter {2 * R!r} density {DENSITY}\nfix i all nve/sphere\n")
-
 
 def packing(options):
     """Deck, and what is compared: name, column of its output, unit, column of the resolved rows."""
@@ -55,7 +50,6 @@ def packing(options):
             f"thermo_style custom step c_p\nvariable d equal {volume!r}/vol\n"
             f'timestep {options.step * UNIT!r}\nfix out all print 5 "$(v_d) $(c_p)" file out.txt screen no title ""\nrun {steps}\n',
             rows(TOP / "tests/liggghts/packing_30_resolved.csv"), {"stress": ([1], YIELD, ["stress"])})
-
 
 def die(options):
     places = points(TOP / "tests/validation/die_30.txt")
@@ -81,7 +75,6 @@ def die(options):
     force = YIELD * R**2
     return text, rows(TOP / "docs/evidence/confined-die.csv"), {"lid": ([6], force, ["lid"]), "floor": ([5], force, ["floor"]),
                                                                 "sides": ([1, 2, 3, 4], force, ["left", "right", "front", "back"])}
-
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -109,7 +102,6 @@ def main():
             window = [sum(line[c] for c in columns) for line in found if abs(line[0] - float(row["density"])) <= 0.005]
             cells.append(f"{100 * (sum(window) / len(window) / unit / sum(float(row[c]) for c in truth) - 1):+.1f}" if window else "-")
         print(f"| {name} | " + " | ".join(cells) + " |")
-
 
 if __name__ == "__main__":
     main()
