@@ -13,13 +13,11 @@ FENCE = re.compile(r"^(```+).*?^\1\s*$", re.MULTILINE | re.DOTALL)
 NAMED = re.compile(r"docs/[\w/-]+\.(?:md|png|json)\b")
 SOURCES = ("mpm_core", "liggghts_plugin", "tools", "tests", "examples", "cmake", "docs")
 
-
 def prose(page):
     """The text without fenced blocks, indented blocks and code in backquotes, where brackets are no links."""
     text = FENCE.sub("", page.read_text())
     text = re.sub(r"(?m)^    .*$", "", text)
     return re.sub(r"`[^`\n]*`", "", text)
-
 
 def anchors(page):
     """Anchors of the headings, as GitHub and MyST make them."""
@@ -32,7 +30,6 @@ def anchors(page):
             slug = f"{base}-{k}"
         found.add(slug)
     return found
-
 
 class Links(unittest.TestCase):
     def test_files_and_anchors(self):
@@ -66,8 +63,8 @@ class Links(unittest.TestCase):
         self.assertEqual(wrong, [])
 
     def test_source_tree(self):
-        """docs/reference/source-tree.md names every folder of sources, tools and tests, and no other."""
-        page = (TOP / "docs/reference/source-tree.md").read_text()
+        """The tables of docs/reference/source-tree.md name every folder of sources, tools and tests, and no other."""
+        page = "".join((TOP / f"docs/reference/{name}").read_text() for name in ("source-tree.md", "folders.csv", "test-folders.csv"))
         there = {str(f.relative_to(TOP)) for pattern in ("mpm_core/*/", "mpm_core/solver/*/", "tools/*/", "tests/*/") for f in TOP.glob(pattern)
                  if f.is_dir() and f.name != "__pycache__"}
         named = set(re.findall(r"`((?:mpm_core|tools|tests)(?:/\w+)+)`", page))
@@ -79,7 +76,6 @@ class Links(unittest.TestCase):
             lines = [line for line in page.read_text().splitlines() if line.strip()]
             self.assertTrue(lines[0].startswith("# "), page)
             self.assertFalse(lines[1].startswith(("|", "#", "```", "    ", "- ")), f"{page}: begins without a sentence")
-
 
 if __name__ == "__main__":
     unittest.main()
