@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Drop test: restitution against speed on a wall, in pairs and obliquely, under three contact laws.
 
-    run.py [-o out/drop] [--seeds 5] [--quick]     # 5 seeds, about 10 s
+    run.py [-o out/drop] [--seeds 5] [--quick]     # 5 seeds, about 10 s, and a minute of the solver
     run.py -o out/drop-stiff --material stiff --models mpm --stretch 10
 
 A collision has no chance in it but the phase of its first touch in the time step: that is what the seeds vary.
@@ -27,14 +27,12 @@ MATERIALS = {"wax": dict(file="materials.toml", E=91e6, Y=1e6, dt=2e-6), "stiff"
 DEEPEST = 0.2  # stretched overlap/R*: only collisions below it are tried under --stretch
 NORMAL_SPEED = 0.5  # m/s, of the oblique impacts
 
-
 def collisions(quick):
     """[(kind, speed normal to the contact m/s, angle deg)]; rho V^2/Y <= 0.008, where the law's velocity axis serves."""
     speeds = np.geomspace(0.01, 3.0, 6 if quick else 25)
     angles = (10, 40, 60, 75) if quick else range(5, 85, 5)
     return [("wall", v, 0.0) for v in speeds] + [("pair", v, 0.0) for v in speeds] + \
            [("oblique", NORMAL_SPEED, float(a)) for a in angles]
-
 
 def write_scene(folder, cases, dt, rng):
     """Each collision in a cell of its own; first touch 0.3 to 1.3 steps after the start."""
@@ -57,7 +55,6 @@ def write_scene(folder, cases, dt, rng):
                       (2 * wide, 2 * wide, 60 * RADIUS), velocities)
     return first
 
-
 def outcome(after, case, first):
     """{e, and for oblique impacts the tangential speed and the surface speed of the spin, m/s}."""
     kind, speed, angle = case
@@ -65,7 +62,6 @@ def outcome(after, case, first):
     if kind == "pair":
         return {"e": (after["vz"][i + 1] - after["vz"][i]) / speed}
     return {"e": after["vz"][i] / speed, "tangential": after["vx"][i], "spin": after["omegay"][i] * RADIUS}
-
 
 def thornton_e(speed, material):
     """Thornton 1997, eq. 41, for the wall; a like pair at twice the speed is the same collision."""
@@ -75,7 +71,6 @@ def thornton_e(speed, material):
     return 1.0 if x >= 1 else (math.sqrt(6 * math.sqrt(3) / 5) * math.sqrt(1 - x * x / 6)
                                * (x / (x + 2 * math.sqrt(1.2 - 0.2 * x * x)))**0.25)
 
-
 def collide(case, law, name):
     """One collision of the law itself, outside LIGGGHTS: what `mpm law` says."""
     kind, speed, _ = case
@@ -84,7 +79,6 @@ def collide(case, law, name):
                            repr(float(speed)), "--json"], check=True, capture_output=True, text=True)
     return json.loads(done.stdout)
 
-
 def expected(model, case, law, args):
     """e by the model itself: `mpm law`, the closed form, the constant."""
     kind, speed, _ = case
@@ -92,12 +86,19 @@ def expected(model, case, law, args):
         return thornton_e(speed / 2 if kind == "pair" else speed, MATERIALS[args.material])
     return E_HERTZ if model == "hertz" else collide(case, law, args.material)["e"]
 
-
 def shallow(case, law, args):
     """True if the stretched overlap stays below DEEPEST."""
     radius = RADIUS / 2 if case[0] == "pair" else RADIUS
     return args.stretch == 1 or args.stretch * collide(case, law, args.material)["delta_max_m"] / radius < DEEPEST
 
+def oblique_beside(quick):
+    """{law: (angles, tangential speed kept)} of the oblique impacts by `mpm oblique`: `tangential plastic`, and the solver, in some minutes."""
+    found = {}
+    for law, angles in (("plastic", range(5, 85, 5)), ("solver", () if quick else (10, 25, 40, 55, 70))):
+        found[law] = list(angles), [json.loads(subprocess.run(
+            [sweep.program("mpm"), "oblique", HERE.parent / "hopper/materials.toml", "--particle", "pellet", "--velocity", str(NORMAL_SPEED), "--angle", str(angle),
+             "--friction", str(MU), "--tangential", law, "--resolution", "8", "--json"], check=True, capture_output=True, text=True).stdout)["e_tangential"] for angle in angles]
+    return found
 
 def main(argv=None):
     parser = sweep.options(__doc__, "out/drop")
@@ -146,7 +147,6 @@ def main(argv=None):
     report(out, rows, args)
     return rows
 
-
 def selection(samples, cases, seeds):
     """A few collisions of every model and seed that represent the rest, for the table over all examples."""
     wall = [k for k, c in enumerate(cases) if c[0] == "wall"]
@@ -160,7 +160,6 @@ def selection(samples, cases, seeds):
         chosen[f"tangential speed kept at {cases[k][2]:g} degrees"] = (k, "tangential", cases[k][1] * math.tan(math.radians(cases[k][2])))
     return {m: [{name: by_case[k][quantity][seed] / unit for name, (k, quantity, unit) in chosen.items()} for seed in range(seeds)]
             for m, by_case in samples.items()}
-
 
 def report(out, rows, args):
     models = list(dict.fromkeys(r["model"] for r in rows))
@@ -183,20 +182,23 @@ def report(out, rows, args):
     (out / "report.md").write_text("\n".join(lines) + "\n\n![drop](drop.png)\n")
 
     figure, axes = pictures.panels(3)
+    beside = oblique_beside(args.quick) if args.material == "wax" and args.stretch == 1 else {"plastic": ([], []), "solver": ([], [])}
     for m in models:
         for ax, kind in zip(axes, ("wall", "pair")):
             mine = [r for r in rows if (r["model"], r["kind"]) == (m, kind)]
             x = [r["normal_speed"] for r in mine]
             ax.plot(x, [r["e"] for r in mine], "o", ms=3, color=pictures.colour(m), label=m)
             ax.plot(x, [r["e_expected"] for r in mine], "-", lw=0.8, color=pictures.colour(m))
-            ax.set(xscale="log", xlabel="approach speed, m/s", ylabel="e", title=f"{kind} (lines: outside LIGGGHTS)")
+            ax.set(xscale="log", xlabel="approach speed, m/s", ylabel="e", title={"wall": "on the wall", "pair": "two spheres"}[kind])
         mine = [r for r in rows if (r["model"], r["kind"]) == (m, "oblique")]
         axes[2].plot([r["angle"] for r in mine], [r["tangential"] / (NORMAL_SPEED * math.tan(math.radians(r["angle"])))
                                                   for r in mine], "o-", ms=3, lw=0.8, color=pictures.colour(m), label=m)
-    axes[2].set(xlabel="impact angle, degrees", ylabel="tangential speed kept", title=f"oblique, {NORMAL_SPEED} m/s normal")
+    axes[2].plot(*beside["plastic"], "--", lw=1.2, color=pictures.colour("mpm"), label="mpm, tangential plastic")
+    axes[2].plot(*beside["solver"], "ko", ms=5, label="solver")
+    axes[2].set(xlabel="impact angle from the normal, degrees", ylabel="tangential speed after / before", title=f"oblique on the wall, {NORMAL_SPEED} m/s normal")
+    axes[2].legend(fontsize=7)
     axes[0].legend()
     pictures.save(figure, out / "drop.png")
-
 
 if __name__ == "__main__":
     main()

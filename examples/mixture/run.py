@@ -27,7 +27,6 @@ STRETCH = 8  # contacts last this much longer, at the same e
 STEP = 2.5e-7  # s, without stretch
 pictures.COLOURS.update(rule="tab:orange", composed="tab:blue")
 
-
 def options(argv):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-o", "--out", default="out/mixture", metavar="DIR", help="default: out/mixture")
@@ -40,7 +39,6 @@ def options(argv):
     parser.set_defaults(law=None, models=["mpm"])
     return parser.parse_args(argv)
 
-
 def law_files(args):
     """{"composed": path, "rule": path}: the second lacks the pairs' own laws, so that every pair follows the pair rule."""
     composed = pathlib.Path(sweep.make_law(args, HERE / "materials.toml", ("--radius-ratio", "2", "--thick-walls"), "composed.h5"))
@@ -52,7 +50,6 @@ def law_files(args):
         del file["pair_laws"]
     return {"rule": rule, "composed": composed}
 
-
 def write_floor(path, half):
     """A square of twice the box's width at z = 0."""
     a = 2 * half
@@ -61,7 +58,6 @@ def write_floor(path, half):
     for face in ((0, 1, 2), (0, 2, 3)):
         text += "facet normal 0 0 1\nouter loop\n" + "".join("vertex {} {} {}\n".format(*corners[k]) for k in face) + "endloop\nendfacet\n"
     path.write_text(text + "endsolid floor\n")
-
 
 def write_scene(folder, scene, seed):
     """A cloud of both kinds, mixed at random, over the floor."""
@@ -78,12 +74,10 @@ def write_scene(folder, scene, seed):
                       types=[1 + list(RADIUS).index(k) for k in kinds])
     write_floor(folder / "floor.stl", half)
 
-
 def temperature(s, kind, count):
     """J, 2/3 of the kinetic energy of a sphere less that of the kind's common rise and fall; over time."""
     mass = DENSITY[kind] * 4 / 3 * np.pi * RADIUS[kind]**3
     return 2 / 3 * (s[f"ke_{kind}"] / count - 0.5 * mass * s[f"vz_{kind}"]**2)
-
 
 def measure(folder, scene):
     s = readings.series(folder)
@@ -100,18 +94,16 @@ def measure(folder, scene):
     found["taken by waves, mW"] = 1e3 * np.ptp(s["waves"][later]) / seconds
     return {**found, **dissipation_by_pair(folder, s["time"][-1])}
 
-
 def dissipation_by_pair(folder, seconds):
     """{"dissipated between a and b, mW": mean over the whole run}, waves left out."""
     return {"dissipated between {} and {}, mW".format(*pair["materials"]): 1e3 * pair["normal_dissipation_J"] / seconds
             for pair in readings.stats(folder)["pairs"]}
 
-
 def main(argv=None):
     args = options(argv)
     scene = QUICK if args.quick else FULL
     dt = STEP * args.stretch
-    out, laws, tables, curves = pathlib.Path(args.out), law_files(args), {}, {}
+    out, laws, tables = pathlib.Path(args.out), law_files(args), {}
     for seed in range(1, args.seeds + 1):
         place = out / f"scene-{seed}"
         write_scene(place, scene, seed)
@@ -120,12 +112,10 @@ def main(argv=None):
                                {"scene": place, "dt": dt, "steps": round(scene["time"] / dt), "every": round(1e-3 / dt), "half": scene["half"],
                                 "amplitude": AMPLITUDE, "period": PERIOD})
             tables.setdefault(name, []).append(measure(folder, scene))
-            curves.setdefault(name, []).append(readings.series(folder))
     samples = write_tables(out, "Mixture", f"{scene['lactose']} spheres of lactose and {scene['mcc']} of mcc, {args.seeds} seeds.", tables, "rule")
     if len(samples) == len(LAWS):
-        draw(out / "mixture.png", samples, curves, scene)
+        draw(out / "mixture.png", samples)
     return samples
-
 
 def changes(samples):
     """{quantity: (per cent, two standard errors)} from the rule to the composed laws, where the rule's value is not 0."""
@@ -137,28 +127,16 @@ def changes(samples):
             found[quantity.split(",")[0]] = 100 * (composed.mean / rule.mean - 1), 200 * composed.mean / rule.mean * float(np.hypot(*errors))
     return found
 
-
-def draw(path, samples, curves, scene):
-    """Quantities that change with the law; the granular temperature of lactose over time."""
-    figure, axes = pictures.panels(2, width=5.6, height=3.6)
+def draw(path, samples):
+    """Quantities that change with the law."""
+    figure, (axis,) = pictures.panels(1, width=6.4, height=3.6)
     found = changes(samples)
     place = -np.arange(len(found))
-    axes[0].errorbar([change for change, _ in found.values()], place, xerr=[error for _, error in found.values()], fmt="o", ms=4, capsize=2)
-    axes[0].axvline(0, color="0.6", lw=0.8)
-    axes[0].set_yticks(place, list(found), fontsize=8)
-    axes[0].set(xlabel="composed laws over pair rule, % (two standard errors)")
-    for name, runs in curves.items():
-        time = running_mean(runs[0]["time"])
-        pictures.band(axes[1], time, [1e9 * running_mean(temperature(s, "lactose", scene["lactose"])) for s in runs], name)
-    axes[1].set(xlabel="time, s", ylabel="granular temperature of lactose, nJ")
-    axes[1].legend()
+    axis.errorbar([change for change, _ in found.values()], place, xerr=[error for _, error in found.values()], fmt="o", ms=4, capsize=2)
+    axis.axvline(0, color="0.6", lw=0.8)
+    axis.set_yticks(place, list(found), fontsize=8)
+    axis.set(xlabel="composed laws over pair rule, % (two standard errors)")
     pictures.save(figure, path)
-
-
-def running_mean(values, rows=80):
-    """Over 0.08 s: two periods of the floor."""
-    return np.convolve(values, np.ones(rows) / rows, "valid")
-
 
 if __name__ == "__main__":
     main()
