@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -93,17 +94,26 @@ int guarded(int code, granulaw_why* why, Work&& work)
 }
 
 
-/// True if a struct of this size is all that this library knows; else false, with a sentence.
+/// Bytes of a struct in the first version 1: a program that was compiled then has no member behind them.
+template <class Struct>
+constexpr std::size_t first_size = sizeof(Struct);
+template <>
+constexpr std::size_t first_size<granulaw_pair> = offsetof(granulaw_pair, work_of_adhesion);
+template <>
+constexpr std::size_t first_size<granulaw_range> = offsetof(granulaw_range, reach);
+
+/// True if a struct of this size has no value that this library does not know; else false, with a sentence.
 template <class Struct>
 bool is_known(const Struct* given, granulaw_why* why, const char* name)
 {
   if (given->size == sizeof(Struct)) [[likely]]
     return true;
-  const auto* bytes = reinterpret_cast<const unsigned char*>(given);
-  if (given->size < sizeof(Struct))
+  if (given->size < first_size<Struct>)
     return failed(0, why, std::string(name) + ": its member `size` is not set to sizeof(" + name + ")"), false;
-  // a program of a later version says nothing that this library would not do
-  if (std::any_of(bytes + sizeof(Struct), bytes + given->size, [](unsigned char byte) { return byte != 0; }))
+  // a program of a later version says nothing that this library would not do; one of an earlier version has no more
+  const auto* bytes = reinterpret_cast<const unsigned char*>(given);
+  const std::size_t known = std::min(given->size, sizeof(Struct));
+  if (std::any_of(bytes + known, bytes + given->size, [](unsigned char byte) { return byte != 0; }))
     return failed(0, why, std::string(name) + ": it has a member that is unknown to this older library"), false;
   return true;
 }
@@ -116,14 +126,14 @@ Struct& at(Struct* first, std::size_t k)
   return *reinterpret_cast<Struct*>(reinterpret_cast<Byte*>(first) + k * first->size);
 }
 
-/// What the caller's struct is set to, but for its size. Members that this library does not know stay.
+/// What the caller's struct is set to, but for its size. Members that it or this library does not know stay.
 template <class Struct>
 int answer(Struct* to, Struct values)
 {
   if (!to) return GRANULAW_NO_POINTER;
-  if (to->size < sizeof(Struct)) return GRANULAW_NO_SIZE;
+  if (to->size < first_size<Struct>) return GRANULAW_NO_SIZE;
   values.size = to->size;
-  *to = values;
+  std::memcpy(to, &values, std::min(to->size, sizeof values));
   return GRANULAW_OK;
 }
 
@@ -455,17 +465,20 @@ void granulaw_usual_pair(granulaw_pair* pair, size_t size)
 {
   if (!pair) return;
   std::memset(pair, 0, size);
-  if (size < sizeof(granulaw_pair)) return;  // granulaw_contact() says so
+  if (size < first_size<granulaw_pair>) return;  // granulaw_contact() says so
   pair->size = size;
   pair->shear_damping = usual_shear_damping, pair->elastic_damping = usual_elastic_damping;
 }
 
-int granulaw_contact(const granulaw_law* law, const granulaw_pair* pair, granulaw_contact_law** contact,
+int granulaw_contact(const granulaw_law* law, const granulaw_pair* given, granulaw_contact_law** contact,
                      granulaw_why* why)
 {
   if (contact) *contact = nullptr;
-  if (!law || !pair || !contact) return failed(GRANULAW_NO_POINTER, why, "granulaw_contact: law, pair or contact is null");
-  if (!is_known(pair, why, "granulaw_pair")) return GRANULAW_NO_SIZE;
+  if (!law || !given || !contact) return failed(GRANULAW_NO_POINTER, why, "granulaw_contact: law, pair or contact is null");
+  if (!is_known(given, why, "granulaw_pair")) return GRANULAW_NO_SIZE;
+  granulaw_pair whole{};  // 0 where an older program has no member
+  std::memcpy(&whole, given, std::min(given->size, sizeof whole));
+  const granulaw_pair* pair = &whole;
   if (!pair->a || !pair->b) return failed(GRANULAW_NO_POINTER, why, "granulaw_contact: a name of the pair is null");
   if (const char* wrong = wrong_number(*pair))
     return failed(GRANULAW_NO_NUMBER, why, std::string("granulaw_contact: ") + wrong);

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -323,6 +324,32 @@ TEST_F(CInterface, OtherVersionsRunOrAreTold)
   longer[0].now.size = 0;
   EXPECT_EQ(granulaw_advance(c, 2, &longer[0].now, history.data(), answers.data(), nullptr, nullptr), GRANULAW_NO_SIZE);
   pair_.size = 8;
+  EXPECT_EQ(refused(GRANULAW_NO_SIZE), "granulaw_pair: its member `size` is not set to sizeof(granulaw_pair)");
+}
+
+/// A program that was compiled with the first header of version 1, before adhesion: nothing behind its structs is read or written.
+TEST_F(CInterface, AProgramOfTheFirstHeaderRuns)
+{
+  constexpr std::size_t pair_size = offsetof(granulaw_pair, work_of_adhesion), range_size = offsetof(granulaw_range, reach);
+  granulaw_pair older{};
+  older.work_of_adhesion = -1;  // what lies there is not the program's: it would be refused
+  granulaw_usual_pair(&older, pair_size);
+  EXPECT_EQ(older.size, pair_size);
+  EXPECT_EQ(older.work_of_adhesion, -1);
+  older.a = "powder", older.b = "wall";
+  const std::vector steps{motion(1e-5), motion(3e-5)};
+  const granulaw_answer expected = answer(contact(), steps);
+  pair_ = older;
+  granulaw_range range{};
+  range.size = range_size, range.reach = -1;
+  double ledger[5] = {0, 0, 0, 0, -1};  // four mechanisms then
+  EXPECT_EQ(answer(contact(), steps, nullptr, ledger).normal, expected.normal);
+  EXPECT_GT(ledger[GRANULAW_PLASTIC], 0);
+  EXPECT_EQ(ledger[4], -1);
+  ASSERT_EQ(granulaw_range_of(contact(), 1e-3, wall, 6e-6, &range), GRANULAW_OK);
+  EXPECT_GT(range.fastest, 0);
+  EXPECT_EQ(range.reach, -1);
+  pair_.size = pair_size - 8;
   EXPECT_EQ(refused(GRANULAW_NO_SIZE), "granulaw_pair: its member `size` is not set to sizeof(granulaw_pair)");
 }
 
