@@ -323,8 +323,9 @@ std::size_t advance(const granulaw_contact_law& contact, const Laws& laws, std::
     const ContactForce force = Element::has_beside && m.overlap <= 0 ? one.element.advance(moves, history, ledger)
                                                                       : one.element.touch(moves, history, ledger, caller);
     now.normal = force.normal;
-    std::copy_n(force.shear.begin(), 3, now.shear);
-    std::copy_n(force.couple.begin(), 3, now.couple);
+    // component by component: a copy of the whole would wait in memory for its parts
+    now.shear[0] = force.shear[0], now.shear[1] = force.shear[1], now.shear[2] = force.shear[2];
+    now.couple[0] = force.couple[0], now.couple[1] = force.couple[1], now.couple[2] = force.couple[2];
     now.beyond = beyond(contact, one, m, moves, begins);
   }
   return n;

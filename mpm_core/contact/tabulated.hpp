@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstring>
 
 #include "contact/contact.hpp"
@@ -254,9 +253,7 @@ struct Tabulated
   static void store(const Reversal& reversal, double* history) { std::memcpy(history, &reversal, sizeof reversal); }
   static Reversal stored_reversal(const double* history)
   {
-    std::array<double, values_of(history_values)> values;
-    std::copy_n(history, values.size(), values.begin());
-    return std::bit_cast<Reversal>(values);
+    return {history[0], history[1], {history[2], history[3], history[4]}};  // a copy of the whole would wait in memory for its parts
   }
 };
 
