@@ -1,6 +1,7 @@
 """granulaw.h, called from programs in C: against `mpm law`, and against the plug-in to the last bit."""
 import math
 import os
+import random
 import re
 
 from pytest import approx, mark
@@ -11,6 +12,7 @@ granulaw = __import__("granulaw") if os.environ.get("GRANULAW_MODULE") else None
 COLLIDE, FORCES = (os.environ[k] for k in ("GRANULAW_COLLIDE", "GRANULAW_CONTACT_FORCES"))
 RADIUS = 1.7e-3
 RIGID = Material("rigid", 1500.0, 1e30, 0.3, 1e30)
+LEGS = (0.7, -0.4, -2.0), (-0.9, 0.2, 1.5), (0.01, 0.02, -1.9), (0.3, 0.1, 0.8), (0.1, 0.3, 2.0)
 
 
 class TestCInterface(Deck):
@@ -43,10 +45,9 @@ class TestCInterface(Deck):
                 assert found["plastic"] + found["waves"] == approx(1 - found["e"]**2, abs=(1e-9 if kind == "plain" else 2e-4))
                 assert (found["waves"] > 0) == (kind == "composed" and pair == "powder:glass" and partner == math.inf)
 
-    def led(self, tangential, spin=(0.0, 0.0)):
+    def led(self, tangential, spin=(0.0, 0.0), velocities=LEGS):
         """A sphere that turns is led into a wall, back and in again, sideways: force and torque on it by granulaw.h, and by LIGGGHTS."""
         dt, friction, damping = 1e-6, 0.4, 0.3
-        velocities = ((0.7, -0.4, -2.0), (-0.9, 0.2, 1.5), (0.01, 0.02, -1.9), (0.3, 0.1, 0.8), (0.1, 0.3, 2.0))
         # tangential plastic has the wall's stiffness from its material: rigid by a modulus that no sum keeps
         materials, rigid = ("powder powder", [POWDER, POWDER]) if tangential == "history" else ("powder rigid", [POWDER, RIGID])
         words = f"law {self.law} materials {materials} elasticDamping off tangentialDampingRatio {damping} beyondRange continue"
@@ -108,13 +109,26 @@ class TestCInterface(Deck):
         found, expected = self.led(tangential)
         assert [f[:3] for f in found] == [f[:3] for f in expected]
 
-    @mark.parametrize("tangential", ("history", "plastic"))
-    def test_forces_and_couples_of_a_sphere_that_turns_are_those_of_the_plugin(self, tangential):
-        """The lever, by which spin slides the surface, is rounded in another order."""
-        found, expected = self.led(tangential, spin=(300.0, -500.0))
+    def compare(self, found, expected):
+        """The lever, by which spin slides the surface, is rounded in another order: 4e-16 of the largest."""
         for k in range(6):
             unit = max(abs(f[k]) for f in expected) or 1.0
-            assert worst(abs(f[k] - g[k]) / unit for f, g in zip(found, expected)) < 1e-9, f"{tangential} {k}"
+            assert worst(abs(f[k] - g[k]) / unit for f, g in zip(found, expected)) < 1e-12, k
+
+    @mark.parametrize("tangential", ("history", "plastic"))
+    def test_forces_and_couples_of_a_sphere_that_turns_are_those_of_the_plugin(self, tangential):
+        self.compare(*self.led(tangential, spin=(300.0, -500.0)))
+
+    @mark.parametrize("tangential", ("history", "plastic"))
+    def test_a_random_history_is_that_of_the_plugin(self, tangential):
+        """Forty times in or out, up to 0.1 R, at random speeds along all axes."""
+        draw = random.Random(70)
+        z, legs = 0.0003 * RADIUS, []
+        for k in range(40):
+            deep = RADIUS * (draw.uniform(0.0, 0.02) if k % 2 else draw.uniform(0.02, 0.1))  # the overlap at the leg's end
+            legs.append((draw.gauss(0, 0.5), draw.gauss(0, 0.5), (-deep - z) / 17e-6))
+            z = -deep
+        self.compare(*self.led(tangential, spin=(draw.gauss(0, 300), draw.gauss(0, 300)), velocities=legs))
 
     def test_what_cannot_be_used_is_one_sentence(self):
         for words, said in ((("no.h5", "powder", "wall"), "no.h5"), ((self.law, "powder", "clay"), "clay"), ((self.law, "mud", "wall"), "mud")):
