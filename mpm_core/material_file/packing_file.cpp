@@ -31,7 +31,7 @@ class Reader
 
   PackingFile read()
   {
-    if (!next_line()) fail(path_, "is empty", {}, formats);
+    if (!next_line()) fail(path_, in_.bad() ? "cannot be read" : "is empty", {}, formats);
     if (line_.starts_with("ITEM:"))
       read_dump();
     else if (const Words head = words_of(line_); head.size() > 1 && head[0] == "#" && head[1] == "box")
@@ -107,6 +107,7 @@ class Reader
 
   void read_lines()
   {
+    if (!by_type_.empty()) fail("--materials", "is for the atom types of LIGGGHTS files; a line of " + path_ + " ends with its material");
     const Words head = words_of(line_);
     for (std::size_t d = 0; d < 3; ++d) high_[d] = over_zero(head, 2 + d, "length of the box");
     while (next_line()) {

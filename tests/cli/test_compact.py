@@ -83,6 +83,11 @@ def test_options_that_cannot_be_used(words, part):
     assert part in mpm("compact", "p.txt", "m.toml", *words, code=2).stderr
 
 
+def test_words_that_do_not_fit_the_packing():
+    assert "LIGGGHTS" in mpm("compact", "p.txt", "m.toml", "--materials", "powder", code=None).stderr
+    assert mpm("compact", ".", "m.toml", code=None).stderr.startswith("mpm: .: cannot be read")
+
+
 def test_checkpoint_is_removed():
     words = "compact", "p.txt", "m.toml", *RUN, "--json"
     assert answer(*words, "--checkpoint", "state", "--checkpoint-every", "0")["stress_Pa"] == answer(*words, "--jobs", "2")["stress_Pa"]
