@@ -43,7 +43,8 @@ class TestLaws(InFolder):
         impact = pair.impact(0.5)
         deepest = impact["delta_max_m"]
         overlap = np.linspace(0, deepest, 20001)
-        loading, unloading = pair.force(overlap, speed=0.5), pair.force(overlap, np.full_like(overlap, deepest), speed=0.5)
+        loading, unloading = pair.force(overlap, speed=0.5), pair.force(overlap, deepest, speed=0.5)
+        assert np.array_equal(unloading, pair.force(overlap, np.full_like(overlap, deepest), speed=0.5))
         assert np.trapz(unloading, overlap) / np.trapz(loading, overlap) == pytest.approx(impact["e"]**2, rel=1e-5)  # 1e-5: what trapezia miss of the foot
         force, stiffness, radius = pair.curves(overlap.reshape(-1, 3), speed=0.5)
         assert force.shape == (6667, 3)
@@ -61,6 +62,11 @@ class TestLaws(InFolder):
     def test_what_cannot_be_used_is_one_sentence(self, law):
         for call, said in ((lambda: granulaw.read("no.h5"), "no.h5"), (lambda: law.pair("powder:clay"), "clay"), (lambda: law.pair("powder:wall", radius=-1), "radius"),
                            (lambda: granulaw.table({"x": POWDER}, ["x"]), "'a:b'"), (lambda: granulaw.Material(density=-1, youngs_modulus=1e9, poisson_ratio=0.3), "density"),
+                           (lambda: granulaw.table({}), "materials: is empty"), (lambda: granulaw.table({"x": 3}), "no granulaw.Material"),
+                           (lambda: granulaw.table({"x": POWDER}, jobs=0), "jobs"), (lambda: granulaw.sphere(-1, POWDER), "^radius"),
+                           (lambda: granulaw.impact(granulaw.sphere(1e-3, POWDER), 1.0, against=3), "^against"),
+                           (lambda: granulaw.impact(granulaw.sphere(1e-3, POWDER), 1.0, threads=0), "^threads"),
+                           (lambda: law.pair("powder:wall").impact(-1), "^velocity"), (lambda: granulaw.calibrate("x.csv", fit="yield_stress", help=True), "--help"),
                            (lambda: law.contact("powder:wall", tangential="plastik"), "history or plastic"), (lambda: granulaw.impact(granulaw.sphere(1e-3, POWDER), 1.0, grid="round"), "mapped")):
             with pytest.raises(granulaw.Error, match=said) as raised:
                 call()
@@ -114,8 +120,18 @@ class TestContacts:
         m["approach"][1] = np.nan
         with pytest.raises(granulaw.Error, match="contact 1: "):
             contact.advance(m, contact.history(3))
-        with pytest.raises(granulaw.Error, match="history has another size|history: has another size"):
+        with pytest.raises(granulaw.Error, match="history: has another size"):
             contact.advance(m, contact.history(2))
+        # a converted copy would lose what a contact keeps
+        for lost in (contact.history(3).astype(np.float32), np.zeros((contact.values, 3)).T, contact.history(6)[::2]):
+            with pytest.raises(granulaw.Error, match="history: is no float64 array in C order"):
+                contact.advance(m, lost)
+        fixed = contact.history(3)
+        fixed.setflags(write=False)
+        with pytest.raises(granulaw.Error, match="history: is read-only"):
+            contact.advance(m, fixed)
+        with pytest.raises(granulaw.Error, match="ledger: is no float64"):
+            contact.advance(m, contact.history(3), np.zeros(5, int))
 
 
 class TestRuns(InFolder):

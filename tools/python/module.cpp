@@ -36,6 +36,7 @@ using namespace granulaw;
 namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Kept = py::array_t<double, py::array::c_style>;
 using SharedLaw = std::shared_ptr<const Law>;
 
 py::object from_json(const nlohmann::ordered_json& json)
@@ -53,6 +54,28 @@ std::function<void(double)> reported_to(const std::function<void(double)>& progr
   };
 }
 
+/// The parameter in place of the command's option at the head of a sentence: "--tangential-velocity: ..." is tangential_velocity.
+std::string in_python(std::string sentence)
+{
+  if (!sentence.starts_with("--")) return sentence;
+  std::replace(sentence.begin(), sentence.begin() + static_cast<std::ptrdiff_t>(std::min(sentence.find(':'), sentence.size())), '-', '_');
+  return sentence.substr(2);
+}
+
+int threads_of(const char* name, int count)
+{
+  if (count < 1) fail(name, "cannot be used", std::to_string(count), "1 or more");
+  return count;
+}
+
+/// An array that the call writes into; a copy would lose what is written.
+Kept written_to(const char* name, const py::array& array)
+{
+  if (!Kept::check_(array)) fail(name, "is no float64 array in C order, as Contact.history() makes", std::string(py::str(array.dtype())));
+  if (!array.writeable()) fail(name, "is read-only");
+  return array;
+}
+
 // ---------------------------------------------------------------- materials and bodies
 
 /// Materials of a file, or of the caller's dictionary.
@@ -62,10 +85,14 @@ Materials materials_of(const py::object& given)
   if (py::isinstance<py::dict>(given)) {
     Materials made;
     made.source = "materials";
-    for (const auto& [name, material] : given.cast<std::map<std::string, Material>>()) {
+    for (const auto& [key, value] : given.cast<py::dict>()) {
+      const std::string name = py::str(key);
+      if (!py::isinstance<Material>(value)) fail("materials", name + " is no granulaw.Material", std::string(py::str(py::type::of(value))));
+      const auto material = value.cast<Material>();
       validate(material, name.c_str());
       made.materials[name] = material;
     }
+    if (made.materials.empty()) fail("materials", "is empty");
     return made;
   }
   return read_materials(py::str(given));
@@ -88,6 +115,8 @@ Partner partner_of(const py::object& against)
   if (against.is_none()) return partner;
   if (py::isinstance<Material>(against))
     partner.wall = against.cast<Material>();
+  else if (!py::isinstance<Particle>(against))
+    fail("against", "is neither a Particle nor a Material", std::string(py::str(py::type::of(against))));
   else
     partner.particle = against.cast<Particle>();
   return partner;
@@ -105,7 +134,7 @@ struct RunChoice
   RunOptions options() const
   {
     RunOptions o;
-    o.resolution = resolution, o.shifted_grids = grids, o.threads = threads, o.estimate_error = estimate_error;
+    o.resolution = resolution, o.shifted_grids = grids, o.threads = threads_of("threads", threads), o.estimate_error = estimate_error;
     o.progress = reported_to(progress);
     o.grid = grid_of(grid);
     return o;
@@ -156,20 +185,20 @@ Pair pair_of(const SharedLaw& law, const std::string& pair, std::optional<double
 template <std::size_t count>
 std::array<py::array_t<double>, count> evaluate(const Pair& p, const Numbers& overlap, const std::optional<Numbers>& largest, double speed)
 {
-  if (largest && largest->size() != overlap.size()) fail("largest", "has another length than overlap", std::to_string(largest->size()), std::to_string(overlap.size()));
+  if (largest && largest->size() != 1 && largest->size() != overlap.size()) fail("largest", "has another length than overlap", std::to_string(largest->size()), fmt::format("1 or {}", overlap.size()));
   const PairLaw& law = p.chosen.law;
   std::array<py::array_t<double>, count> out;
   for (auto& one : out) one = py::array_t<double>(std::vector<py::ssize_t>(overlap.shape(), overlap.shape() + overlap.ndim()));
   std::array<double*, count> to{};
   for (std::size_t k = 0; k < count; ++k) to[k] = out[k].mutable_data();
   const double *d = overlap.data(), *m = largest ? largest->data() : d;
-  const auto size = static_cast<std::size_t>(overlap.size());
+  const auto size = static_cast<std::size_t>(overlap.size()), step = std::size_t{!largest || largest->size() != 1};
   const py::gil_scoped_release release;
   const double latched = law.impact_overlap(p.chosen.r_eff, p.chosen.m_eff, speed);
   const Tabulated normal(law, law.measure(), Scale{});
   double own[NormalState<Tabulated>::values] = {};
   for (std::size_t q = 0; q < size; ++q) {
-    const double deepest = std::max(m[q], d[q]);
+    const double deepest = std::max(m[q * step], d[q]);
     if (!std::isfinite(deepest)) fail("overlap", "is no number at place " + std::to_string(q));
     if (d[q] > p.chosen.limit() || deepest > p.chosen.limit())
       fail("overlap", "is beyond the law's table at place " + std::to_string(q), fmt::format("{:g} m", deepest), fmt::format("up to {:.4g} m", p.chosen.limit()));
@@ -218,7 +247,7 @@ SharedLaw table(const py::object& materials, const std::vector<std::string>& pai
   const Atlas atlas = read_atlas(atlas_file);
   request.atlas = &atlas;
   const LawFilePlan plan = plan_law_file(request);
-  ThreadFarm farm(jobs);
+  ThreadFarm farm(threads_of("jobs", jobs));
   const auto report = reported_to(progress);
   Law law = make_law_file(plan, &farm, [&](double done, const std::string&) { report(done); }).law;
   law.provenance["command"] = "granulaw.table";
@@ -229,6 +258,7 @@ SharedLaw table(const py::object& materials, const std::vector<std::string>& pai
 py::object calibrate_by(const std::vector<std::string>& words, const std::string& atlas_file)
 {
   CLI::App app;
+  app.set_help_flag();
   Options options(app);
   CalibrationOptions chosen;
   chosen.add_to(options, true);
@@ -289,9 +319,11 @@ class Contact
     return filled(n, begins);
   }
 
-  py::array_t<granulaw_answer> advance(const py::array_t<granulaw_motion, py::array::c_style>& motion, py::array_t<double, py::array::c_style>& history,
-      std::optional<py::array_t<double, py::array::c_style>> ledger) const
+  py::array_t<granulaw_answer> advance(const py::array_t<granulaw_motion, py::array::c_style>& motion, const py::array& given, const std::optional<py::array>& given_ledger) const
   {
+    Kept history = written_to("history", given);
+    std::optional<Kept> ledger;
+    if (given_ledger) ledger = written_to("ledger", *given_ledger);
     check(motion, history);
     if (ledger && ledger->size() != GRANULAW_MECHANISMS) fail("ledger", "has another length", std::to_string(ledger->size()), std::to_string(GRANULAW_MECHANISMS));
     granulaw_answer begins{};
@@ -400,7 +432,15 @@ PYBIND11_MODULE(_granulaw, m)
   PYBIND11_NUMPY_DTYPE(granulaw_motion, size, radius_a, radius_b, m_eff, overlap, approach, dt, normal, slide, rolling, asked_again);
   PYBIND11_NUMPY_DTYPE(granulaw_answer, size, normal, shear, couple, beyond);
   PYBIND11_NUMPY_DTYPE(granulaw_state, size, stiffness, contact_radius, stored_energy, largest_overlap, branch);
-  py::register_exception<Error>(m, "Error", PyExc_ValueError).doc() = doc("Error");
+  static py::exception<Error> error(m, "Error", PyExc_ValueError);
+  error.doc() = doc("Error");
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Error& wrong) {
+      error(in_python(wrong.what()).c_str());
+    }
+  });
   m.attr("__version__") = version();
 
   Class<Material>(m, "Material")
@@ -421,7 +461,10 @@ PYBIND11_MODULE(_granulaw, m)
       .property("particles", [](const Materials& o) { return names_of(o.particles); })
       .method("particle", &Materials::particle, arg("name"));
   function(m, "read_materials", [](const py::object& path) { return read_materials(py::str(path)); }, arg("path"));
-  function(m, "sphere", [](double radius, const Material& material) { return Particle::sphere(radius, material); }, arg("radius"), arg("material"));
+  function(m, "sphere", [](double radius, const Material& material) {
+             if (!(radius > 0 && std::isfinite(radius))) fail("radius", "cannot be used", fmt::format("{:g}", radius), "over 0 (m)");
+             return Particle::sphere(radius, material);
+           }, arg("radius"), arg("material"));
 
   Class<Law, std::shared_ptr<Law>>(m, "Law")
       .property("materials", &law_materials)

@@ -77,8 +77,8 @@ class Pair:
     def fastest(self) -> float:
         """m/s, to which the law's velocity axis goes; infinity without one."""
     def force(self, overlap: ArrayLike, largest: ArrayLike | None = None, *, speed: float = 0.0) -> Numbers:
-        """N, pushing, at overlaps (m) of contacts whose largest overlap was `largest` (m; None: they load) and that began at
-        `speed` (m/s; 0: slowly). The shape of `overlap`."""
+        """N, pushing, at overlaps (m) of contacts whose largest overlap was `largest` (m, one number or as many; None: they load)
+        and that began at `speed` (m/s; 0: slowly). The shape of `overlap`."""
     def curves(self, overlap: ArrayLike, largest: ArrayLike | None = None, *, speed: float = 0.0) -> tuple[Numbers, Numbers, Numbers]:
         """Force (N), its slope (N/m) and the contact radius (m); as force()."""
     def impact(self, velocity: float) -> dict[str, Any]:
@@ -105,7 +105,8 @@ class Contact:
     def history(self, n: int = 1) -> Numbers:
         """n x values: zero, of contacts that begin."""
     def advance(self, motion: NDArray[np.void], history: Numbers, ledger: Numbers | None = None) -> NDArray[np.void]:
-        """Forces of a step; changes `history`. To `ledger` are added J that plastic flow, waves, friction and shear took."""
+        """Forces of a step; changes `history`. To `ledger`, five numbers, are added J that plastic flow, waves, friction, shear and
+        adhesion took."""
     def state(self, motion: NDArray[np.void], history: Numbers) -> NDArray[np.void]:
         """What the contacts are beside their forces; changes nothing."""
 
