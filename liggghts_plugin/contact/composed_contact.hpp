@@ -72,10 +72,11 @@ class ComposedContact final : public cm::ContactModelBase
   void tally_pp(double value, int i, int j, int index) override { surface_.tally_pp(value, i, j, index); }
   void tally_pw(double value, int i, int j, int index) override { surface_.tally_pw(value, i, j, index); }
 
-  /// True: particles that do not touch may act on each other.
-  bool acts_at_distance() const
+  /// True: particles that do not touch may act on each other; also those that have not touched.
+  bool acts_at_distance() const { return decltype(element_)::acts_at_distance || begins_apart(); }
+  bool begins_apart() const
   {
-    if constexpr (decltype(element_)::acts_at_distance) return true;
+    if constexpr (decltype(element_)::begins_apart) return true;
     if constexpr (requires { cohesion_.always_off; }) return false;
     return ids_.has_bridges();
   }

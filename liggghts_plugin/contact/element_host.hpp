@@ -166,6 +166,8 @@ class ElementHost : public ContactInquiry
 
   /// True: it acts across gaps, and surfacesClose() adds a force.
   static constexpr bool acts_at_distance = Element::has_beside;
+  /// True: also between neighbours that have not touched.
+  static constexpr bool begins_apart = Element::begins_apart;
 
   void surfacesClose(SurfacesIntersectData& contact, ForceData& on_i, ForceData& on_j)
   {
@@ -315,6 +317,10 @@ class ElementHost : public ContactInquiry
   {
     if (!contact.contact_history) return false;
     const Entry& entry = entry_of(contact);
+    if (!begins_apart && !holds(history_of(contact.contact_history))) {
+      if (energy_) energy_->booked = {.counts = entry.counts};
+      return false;
+    }
     const double r_eff = effective_radius(contact);
     double parting = 0.0;
     for (int c = 0; c < 3; ++c) parting += (contact.v_i[c] - contact.v_j[c]) * contact.en[c];

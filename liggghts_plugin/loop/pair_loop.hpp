@@ -152,12 +152,19 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     bool newton;    // forces on ghosts count
     bool observed;  // tell_observers
   };
-  /// True if spheres that do not touch may act on each other (liquid bridges): all within LIGGGHTS's contact
-  /// distance are visited then.
+  /// True if spheres that do not touch may act on each other; also those that have not touched (liquid bridges): all within
+  /// LIGGGHTS's contact distance are visited then.
   bool acts_at_distance() const
   {
     if constexpr (requires { model_.acts_at_distance(); })
       return model_.acts_at_distance();
+    else
+      return false;
+  }
+  bool begins_apart() const
+  {
+    if constexpr (requires { model_.begins_apart(); })
+      return model_.begins_apart();
     else
       return false;
   }
@@ -245,7 +252,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     const double xi = x[3 * i], yi = x[3 * i + 1], zi = x[3 * i + 2], ri = radius[i];
     Candidate* out = candidates_.data() + at;
     double reach2 = 1.0;  // of the squared sum of radii
-    if (acts_at_distance())
+    if (begins_apart())
       reach2 = lmp_->neighbor->contactDistanceFactor * lmp_->neighbor->contactDistanceFactor;
     for (int jj = 0; jj < count; ++jj) {
       const int j = neighbours[jj] & NEIGHMASK;

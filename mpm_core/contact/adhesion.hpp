@@ -125,6 +125,7 @@ struct DentAdhesion
   static constexpr double usual_range = usual_adhesion_range;
   /// Friction grows with the law's force alone, with what presses the surfaces, as beside LIGGGHTS's sjkr.
   static constexpr bool outside_friction = true;
+  static constexpr bool begins_touching = true;
 
   double length_of_w = 0;  ///< w/(E*_s lambda), W R*, in the caller's unit of length
   double lambda = 0;       ///< with the stretch

@@ -29,7 +29,8 @@ struct ContactForce
 
 /// A piece that stands beside the two laws: adhesion, a bond, a charge. `history`: its own values. Values that each particle
 /// has, in ContactMotion: `static constexpr const char* particle_values`, their name, and `particle_count`. With `outside_friction`
-/// true friction grows with the normal law's force and the dashpots' alone.
+/// true friction grows with the normal law's force and the dashpots' alone. With `begins_touching` true it acts across a gap only
+/// while it holds the two bodies, so that neighbours that never touched are not looked at.
 template <class Piece, class Normal>
 concept StandsBeside = std::copyable<Piece> &&
     requires(const Piece piece, const Normal normal, const ContactMotion& motion, double r_eff, double push, double* normal_history,
@@ -95,6 +96,7 @@ struct ContactElement
   [[no_unique_address]] Beside beside{};
 
   static constexpr bool has_beside = !std::same_as<Beside, NothingBeside>;
+  static constexpr bool begins_apart = has_beside && !requires { requires Beside::begins_touching; };
   static constexpr bool loads_friction = has_beside && !requires { requires Beside::outside_friction; };
 
   /// `history`: `values` numbers of this contact. An overlap of 0 or less ends it, unless the piece beside holds it. Adds to `books`.
@@ -144,10 +146,11 @@ struct ContactElement
   ContactForce part(const ContactMotion& m, double* history, Ledger& ledger) const
   {
     ContactForce answer;
-    if constexpr (has_beside) {
-      if (-m.overlap <= beside.reach(m.r_eff)) answer.normal = beside.advance(normal, m, 0.0, history, history + beside_at, ledger);
-      if (-m.overlap <= beside.reach(m.r_eff) && beside.holds(history + beside_at)) return answer;
-    }
+    if constexpr (has_beside)
+      if ((begins_apart || beside.holds(history + beside_at)) && -m.overlap <= beside.reach(m.r_eff)) {
+        answer.normal = beside.advance(normal, m, 0.0, history, history + beside_at, ledger);
+        if (beside.holds(history + beside_at)) return answer;
+      }
     if (m.advances) std::fill_n(history, values, 0.0);
     return answer;
   }
