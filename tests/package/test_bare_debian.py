@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A bare Debian 12 (debootstrap, minbase): the package of FOLDER is installed by apt, by the words of
 the container's recipe (Dockerfile), makes a law, runs a small hopper, and goes
-without a trace. Needs root, debootstrap and a Debian mirror; skipped (77) where one of them is missing.
+without a trace. Then python3-granulaw alone makes a law. Needs root, debootstrap and a Debian mirror; skipped (77) where one of them is missing.
 
     test_bare_debian.py FOLDER [--root DIR]
 
@@ -30,6 +30,17 @@ mpm table /usr/share/granulaw/examples/hopper/materials.toml -o wax.h5
 mpm law wax.h5 --pair wax:wall --radius 3e-3 --velocity 1.0
 mpm plot wax.h5 -o wax.png
 /usr/bin/python3 /usr/share/doc/granulaw/examples/hopper/run.py --quick --seeds 1 --models mpm -o flow
+"""
+
+
+PYTHON = """set -e
+apt-get -q update
+apt-get -q -y install --no-install-recommends /tmp/python3-granulaw_*.deb
+cd /root/work
+python3 -c "
+import granulaw
+powder = granulaw.Material(density=1500, youngs_modulus=10e9, poisson_ratio=0.3, yield_stress=100e6)
+print(granulaw.table({'powder': powder}, ['powder:wall']).pair(radius=1e-3).impact(2.0)['e'])"
 """
 
 
@@ -80,9 +91,16 @@ def last_stage():
     return re.findall(r"^RUN (.*)$", recipe[recipe.rindex("\nFROM "):], re.MULTILINE)
 
 
+def examine_python(root, package):
+    shutil.copy(package, root / "tmp")
+    (root / "root/work").mkdir(exist_ok=True)
+    e = float(inside(root, PYTHON).splitlines()[-1])
+    require(0.5 < e < 1, f"import granulaw: e = {e}")
+    require("liggghts" not in inside(root, "dpkg-query -W -f '${Package} '"), "python3-granulaw came with LIGGGHTS")
+    say(f"python3-granulaw alone: e = {e}")
+
+
 def examine(root, package):
-    for name in ("resolv.conf", "hosts"):
-        shutil.copy(f"/etc/{name}", root / "etc" / name)
     shutil.copy(package, root / "tmp")
     # Recommended packages only, without those that they recommend in turn: half a gigabyte less. dpkg need not
     # survive a power cut here.
@@ -131,7 +149,12 @@ def main():
         if not root.exists():
             make_root(root)
             say(f"a bare Debian 12 in {root}")
+        for name in ("resolv.conf", "hosts"):
+            shutil.copy(f"/etc/{name}", root / "etc" / name)
         examine(root, packages[0])
+        inside(root, "apt-get -q -y autoremove --purge")
+        for module in options.folder.glob("python3-granulaw_*.deb"):
+            examine_python(root, module)
 
 
 START = time.monotonic()

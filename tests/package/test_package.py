@@ -36,7 +36,7 @@ def listing(name):
 class TestContents:
     def test_users_find(self):
         files = listing("granulaw")
-        for path in ("bin/mpm", "bin/liggghts-mpm", "lib/libgranulaw_liggghts.so",
+        for path in ("bin/mpm", "bin/liggghts-mpm", "lib/libgranulaw_liggghts.so", "lib/libgranulaw.so.1",
                      "share/granulaw/atlas.h5", "share/granulaw/plot_law.py",
                      "share/granulaw/plot_fields.py", "share/granulaw/examples/README.md",
                      "share/granulaw/examples/hopper/in.hopper", "share/granulaw/examples/hopper/materials.toml",
@@ -57,7 +57,7 @@ class TestContents:
         assert set(kept) <= packed
 
     def test_nothing_else(self):
-        for name in ("granulaw", "granulaw-dev"):
+        for name in ("granulaw", "granulaw-dev", "python3-granulaw"):
             for path, (mode, owner) in listing(name).items():
                 assert path == "" or "usr/".startswith(path) or path.startswith("usr/"), path
                 assert "__pycache__" not in path
@@ -68,7 +68,8 @@ class TestContents:
 
     def test_programmers_find(self):
         files = listing("granulaw-dev")
-        for path in ("lib/libgranulaw_law.a", "lib/cmake/granulaw/granulawConfig.cmake", "include/granulaw/law/law.hpp"):
+        for path in ("lib/libgranulaw_law.a", "lib/cmake/granulaw/granulawConfig.cmake", "include/granulaw/law/law.hpp", "include/granulaw.h", "lib/pkgconfig/granulaw.pc",
+                     "lib/libgranulaw.so"):
             assert f"usr/{path}" in files
         assert [p for p in files if p in listing("granulaw") and not p.endswith("/")] == []
 
@@ -122,6 +123,16 @@ class TestUnpacked(InFolder):
             assert packed[key] == built[key]
         self.run_here(self.bin / "mpm", "plot", "wax.h5", "-o", "wax.png")
         assert (self.work / "wax.png").read_bytes()[:4] == b"\x89PNG"
+
+    def test_python(self):
+        """python3-granulaw alone: no file and no library of the other packages."""
+        assert not re.search(r"granulaw|liggghts|openmpi", said("dpkg-deb", "--field", package("python3-granulaw"), "Depends"))
+        said("dpkg-deb", "--extract", package("python3-granulaw"), self.work / "alone")
+        code = ("import granulaw; p = granulaw.Material(density=1500, youngs_modulus=1e10, poisson_ratio=0.3, yield_stress=1e8); "
+                "print(granulaw.__version__, granulaw.table({'p': p}, ['p:wall']).pair().impact(2.0)['e'])")
+        told = self.run_here("env", f"PYTHONPATH={self.work}/alone/usr/lib/python3/dist-packages", "/usr/bin/python3", "-c", code).split()
+        assert told[0] == VERSION
+        assert 0.5 < float(told[1]) < 1
 
     def test_atlas_is_the_package_s(self):
         """A damaged one is named in the tool's sentence: it reads this one, not another of this machine."""
