@@ -1,4 +1,5 @@
-// mpm plot: a picture of a law file, or of one pair of it, drawn by plot_law.py.
+// mpm plot: a picture of a law file, or of one pair of it, drawn by plot_law.py. The curves come from here, so that the Python
+// that draws needs Matplotlib alone, not the module `granulaw`, which is another package.
 #include <fmt/format.h>
 
 #include <memory>
