@@ -9,7 +9,7 @@ has a density of 0.75 to 1, and unloaded. Runs stay in FOLDER: a second call goe
 """
 import argparse
 import csv
-
+import itertools
 import math
 import subprocess
 from pathlib import Path
