@@ -152,6 +152,16 @@ class TestRuns(InFolder):
         assert seen
         assert max(seen) <= 1
 
+    def test_two_deformable_spheres_in_three_dimensions(self):
+        """Head-on, against the solver of two dimensions; obliquely they slip less than they came."""
+        small, large = granulaw.sphere(1e-3, POWDER), granulaw.sphere(1.5e-3, POWDER)
+        flat = granulaw.impact(small, 20.0, against=large)
+        space = {"grid": "rectilinear-3d", "resolution": 6, "shifted_grids": 1}
+        assert granulaw.impact(small, 20.0, against=large, **space)["e"] == pytest.approx(flat["e"], rel=0.015)  # 6 cells
+        assert 0 < granulaw.impact(large, 20.0, against=small, tangential_velocity=20.0, friction=0.3, **space)["velocity_after_tangential_m_per_s"] < 20
+        with pytest.raises(granulaw.Error):
+            granulaw.impact(small, 20.0, against=POWDER, **space)
+
     def test_ctrl_c_stops_a_run(self):
         code = ("import granulaw\np = granulaw.Material(density=1500, youngs_modulus=10e9, poisson_ratio=.3, yield_stress=1e8)\nprint('begins', flush=True)\n"
                 "granulaw.impact(granulaw.sphere(1e-3, p), 0.1, resolution=24)")

@@ -38,6 +38,11 @@ RunResult body_impact(const Particle& particle, const Approach& thrown, const Pa
 {
   RunResult result = impact(particle, thrown, partner, options);
   if (!result.rebound) return result;
+  if (partner.particle) {  // two spheres, relative to each other: no planes
+    centre.contacts = 1;
+    centre.tangential_after = thrown.tangential_velocity == 0 ? 0 : result.rebound->tangential * thrown.tangential_velocity;
+    return result;
+  }
   const RigidMotion before{Vector3(thrown.tangential_velocity, 0, -thrown.velocity), Vector3(0, thrown.spin, 0)};
   const ContactWork work = contact_work(result, rigid_body(particle, thrown, *result.rebound), before);
   if (!is_central(particle, thrown)) {
