@@ -14,11 +14,8 @@ constexpr double least_free = 0.004;    // psi of a closed cell
 constexpr double crowded_from = 0.35;   // psi_1, below which the last free surface hardens the faces
 constexpr double crowding = 2.0 / 3.0;  // of a hollow sphere's pressure over Y ln
 constexpr double stiffening = 0.6;      // exponent of psi in the local compliance of a face
-constexpr double own_part = 0.5;        // of the mean strain of one force, in the compliance of one contact
 constexpr double least_local = 0.3;     // local part of that compliance
 constexpr double closing = 2.75;        // p/Y at which the cell's bulk modulus takes over
-constexpr double pressure_foot = 0.3;   // p_c of the elastic volume: p^2/(p + p_c)
-constexpr double memory = 1e-3;         // way over which p is averaged
 constexpr double tabor_strain = 0.2;    // of an indentation, times a/R: Tabor, The Hardness of Metals (1951)
 constexpr double largest_ball = 1.6;
 // of the step
@@ -43,8 +40,8 @@ double along(const std::array<double, 6>& nn, const std::array<double, 6>& e)
 constexpr double weight(std::size_t component) { return component < 3 ? 1.0 : 2.0; }
 constexpr std::size_t at_triangle(std::size_t row, std::size_t column) { return row * (row + 1) / 2 + column; }
 double spring_energy(double force, double stiffness) { return 0.5 * force * force / stiffness; }
-/// Largest force that the face bears now: between refreshes it goes on with its last slope.
-double cap_now(const SideState& s) { return std::max(s.cap + s.cap_slope * (s.overlap - s.cached_overlap), 0.5 * s.cap); }
+/// Largest force that the face bears now, on F^2 + 6 T^2: between refreshes it goes on with its last slope.
+double cap_now(const SideState& s) { return std::max(s.cap + s.cap_slope * (s.overlap - s.cached_overlap), 0.5 * s.cap) / std::sqrt(1.0 + s.sheared); }
 
 /// Lame's, times the particle's volume.
 struct Moduli
@@ -116,7 +113,7 @@ std::span<const SideAnswer> ConfinedParticle::advance(const PlasticBody& body, s
   predict(body, steps, room);
   lag -= strain_energy(body, state.strain);
   flow(modes_of(room), room);
-  double pressure = 0, way = 0;
+  double pressure = 0;
   room.answers.resize(sides.size());
   for (std::size_t i = 0; i < sides.size(); ++i) {
     SideState& s = sides[i];
@@ -132,11 +129,9 @@ std::span<const SideAnswer> ConfinedParticle::advance(const PlasticBody& body, s
     room.answers[i] = {s.force + c.area * bulk_, s.stiffness + (bulk_ > 0 ? 3.0 * body.bulk_modulus() * c.area * c.area / volume_ : 0.0),
                        trial > 0 ? std::max(v, 0.0) : 0.0, c.area};
     pressure += s.force * c.lever / 3.0;
-    way = std::max(way, std::abs(steps[i].advance));
   }
   state.dissipated += lag;
   pressure_ = pressure;
-  state.mean_pressure += (pressure - state.mean_pressure) * std::min(1.0, way / memory);
   state.share = std::max(state.share, std::clamp((pressure - begins_at) / (complete_at - begins_at), 0.0, 1.0));
   return room.answers;
 }
@@ -165,7 +160,6 @@ std::span<const SideAnswer> ConfinedParticle::advance_apart(const PlasticBody& b
     pressure_ += now.force * (1.0 - s.overlap) / (3.0 * confined_volume);
     loaded += now.force > 0;
   }
-  state.mean_pressure = pressure_;
   if (pressure_ > begins_at && loaded > 1) confine(body, room.of_pair);
   return room.answers;
 }
@@ -232,10 +226,12 @@ void ConfinedParticle::refresh(const PlasticBody& body, std::span<const SideStep
   before.resize(sides.size());
   for (std::size_t i = 0; i < sides.size(); ++i) {
     before[i] = sides[i].cached_overlap;
-    sides[i].cached_overlap = sides[i].overlap, sides[i].cached_normal = steps[i].normal;
+    SideState& s = sides[i];
+    s.cached_overlap = s.overlap, s.cached_normal = steps[i].normal;
+    s.cached_elastic = s.force > 0 ? s.force / s.stiffness + (1.0 - s.overlap) * along(dyad(s.cached_normal), state.strain) : 0.0;
   }
   if (body.hardens()) state.flow_stress = body.flow_stress(state.plastic_strain);
-  cut(body, true, room);
+  cut(true, room);
   const double crowd = free_share_ < crowded_from ? state.flow_stress * crowding * std::log(crowded_from / free_share_) : 0.0;
   const double open = std::pow(free_share_, stiffening), uniform = 1.0 / (confined_volume * body.youngs_modulus());
   for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -248,7 +244,7 @@ void ConfinedParticle::refresh(const PlasticBody& body, std::span<const SideStep
     if (const double way = s.cached_overlap - before[i]; std::abs(way) > 1e-5) s.cap_slope = s.cap > 0 ? std::clamp((cap - s.cap) / way, 0.0, 12.0) : 0.0;
     s.cap = cap;
     // the mean strain has its own part in the compliance of one contact
-    const double whole = 1.0 / std::max(body.stiffness(radius), least_stiffness), local = std::max(whole - own_part * height * height * uniform, least_local * whole) * open;
+    const double whole = 1.0 / std::max(body.stiffness(radius), least_stiffness), local = std::max(whole - PlasticBody::own_part * height * height * uniform, least_local * whole) * open;
     if (const double stiffness = 1.0 / local; stiffness > s.stiffness) {  // at constant force: energy is lost
       if (s.force > 0) dissipate(body, spring_energy(s.force, s.stiffness) - spring_energy(s.force, stiffness));
       s.stiffness = stiffness;
@@ -258,14 +254,14 @@ void ConfinedParticle::refresh(const PlasticBody& body, std::span<const SideStep
   fresh_ = true;
 }
 
-/// Faces of the last refresh's planes. `grows`: the ball grows to its volume first.
-void ConfinedParticle::cut(const PlasticBody& body, bool grows, ConfinedRoom& room)
+/// Faces of the last refresh's planes, as they stand to the body without its elastic strain. `grows`: the ball grows to its volume first.
+void ConfinedParticle::cut(bool grows, ConfinedRoom& room)
 {
   const std::size_t n = sides.size();
   room.normals.resize(n), room.heights.resize(n), room.areas.resize(n), cache_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) room.normals[i] = sides[i].cached_normal, room.heights[i] = 1.0 - sides[i].cached_overlap;
+  for (std::size_t i = 0; i < n; ++i) room.normals[i] = sides[i].cached_normal, room.heights[i] = 1.0 - sides[i].cached_overlap + sides[i].cached_elastic;
   room.faces.set_directions(room.normals);
-  if (grows) grow(body, room);
+  if (grows) grow(room);
   const CellFaces::Sums sums = room.faces.cut(room.heights, state.grown_radius, room.areas);
   free_share_ = std::max(sums.free_share, least_free), volume_ = sums.volume;
   for (std::size_t i = 0; i < n; ++i) {
@@ -275,15 +271,14 @@ void ConfinedParticle::cut(const PlasticBody& body, bool grows, ConfinedRoom& ro
   }
 }
 
-/// The ball's radius with which its cell has the particle's volume under p; no larger than closes the cell.
-void ConfinedParticle::grow(const PlasticBody& body, ConfinedRoom& room)
+/// The ball's radius with which its cell has the particle's volume; no larger than closes the cell.
+void ConfinedParticle::grow(ConfinedRoom& room)
 {
   double& radius = state.grown_radius;
-  const double p = std::max(state.mean_pressure, 0.0), wanted = confined_volume * std::exp(-p * p / ((p + pressure_foot) * body.bulk_modulus()));
   const auto at = [&](double r) { return room.faces.cut(room.heights, r, room.areas); };
   for (int k = 0; k < 12; ++k) {
     const CellFaces::Sums now = at(radius);
-    const double miss = wanted - now.volume;
+    const double miss = confined_volume - now.volume;
     if (std::abs(miss) < 1e-6 * confined_volume) return;
     if (now.free_share < least_free && miss >= 0) {
       double low = 0.9, high = radius;
@@ -303,10 +298,11 @@ void ConfinedParticle::couple(const PlasticBody& body)
 {
   const std::size_t n = sides.size();
   const double over = 1.0 / (state.flow_stress * state.flow_stress);
+  const double open = ConfinedModes::open(free_share_);
   coupling_.resize(n * (n + 1) / 2);
   for (std::size_t i = 0, k = 0; i < n; ++i)
     for (std::size_t j = 0; j <= i; ++j, ++k)
-      coupling_[k] = over * ConfinedModes::coupling(dot(sides[i].cached_normal, sides[j].cached_normal), cache_[i].filter * cache_[j].filter);
+      coupling_[k] = over * ConfinedModes::coupling(dot(sides[i].cached_normal, sides[j].cached_normal), open * cache_[i].filter * cache_[j].filter);
   const Moduli m = Moduli::of(body);
   std::array<double, 21>& h = elastic_;
   for (std::size_t p = 0; p < 6; ++p)
@@ -327,10 +323,11 @@ void ConfinedParticle::press_closed_cell(const PlasticBody& body, bool refreshed
 {
   const bool closed = free_share_ <= least_free * 1.0001;
   const double before = state.closed ? cell_energy(body, state.cell_volume) : 0.0;
+  const double now = volume_ * std::exp(-(state.strain[0] + state.strain[1] + state.strain[2]));  // volume_: of the body without its strain
   if (closed && !state.closed)
-    state.cell_volume = volume_;
+    state.cell_volume = std::max(now, volume_at_rest(body));
   else if (closed && refreshed)
-    state.cell_volume = std::max(state.cell_volume, volume_);
+    state.cell_volume = std::max(state.cell_volume, now);
   if (state.closed && refreshed) state.dissipated += before - (closed ? cell_energy(body, state.cell_volume) : 0.0);
   state.closed = closed;
   bulk_ = closed ? cell_pressure(body, state.cell_volume) : 0.0;
@@ -449,7 +446,7 @@ void ConfinedParticle::restore(const PlasticBody& body, ConfinedRoom& room)
 {
   fresh_ = false;
   if (!confined() || sides.empty() || !(sides.front().cap > 0)) return;  // not refreshed since it was confined
-  cut(body, false, room);
+  cut(false, room);
   couple(body);
   fresh_ = true;
   bulk_ = state.closed ? cell_pressure(body, state.cell_volume) : 0.0;

@@ -25,10 +25,11 @@ struct SideState
   double overlap = 0;     ///< 1 less the plane's distance from the centre; negative where only bulging reaches the plane
   double deepest = 0;     ///< largest overlap; of a particle that is not confined
   // of the last refresh: every cached number follows from these
-  double cached_overlap = 0;
+  double cached_overlap = 0, cached_elastic = 0;  ///< the part of the overlap that an unloading gives back
   Vector cached_normal{};
   double cap = 0, cap_slope = 0;  ///< largest force that the face bears, and its slope by the overlap
   bool touched = false;           ///< it has had a force
+  double sheared = 0;             ///< 6 (T/F)^2: what the tangential force takes of the largest force
   // the caller's: no law reads them
   double distance = 0;         ///< to the neighbour's centre or the wall, in the caller's unit
   Vector shear{};              ///< tangential force on this particle, of this half
@@ -39,7 +40,6 @@ struct SideState
 struct ConfinedState
 {
   double grown_radius = 1;    ///< R_a, of the ball that the planes cut; bulging reaches so far
-  double mean_pressure = 0;   ///< p, averaged over a way of .001 R; for R_a
   double cell_volume = 0;     ///< of a closed cell, carried
   double share = 0;           ///< r, 0: every contact is by itself, the pair law; 1: confined. Never falls
   double dissipated = 0;      ///< plastic, of all sides
@@ -55,7 +55,7 @@ void visit_numbers(SideState& s, Visit&& visit)
 {
   double key = static_cast<double>(s.key), touched = s.touched;
   visit(key);
-  for (double* x : {&s.force, &s.stiffness, &s.gap, &s.overlap, &s.deepest, &s.cached_overlap, &s.cap, &s.cap_slope, &s.distance, &s.shear_stiffness}) visit(*x);
+  for (double* x : {&s.force, &s.stiffness, &s.gap, &s.overlap, &s.deepest, &s.cached_overlap, &s.cached_elastic, &s.cap, &s.cap_slope, &s.sheared, &s.distance, &s.shear_stiffness}) visit(*x);
   for (Vector* v : {&s.cached_normal, &s.shear})
     for (double& x : *v) visit(x);
   visit(touched);
@@ -65,12 +65,12 @@ template <class Visit>
 void visit_numbers(ConfinedState& c, Visit&& visit)
 {
   double closed = c.closed;
-  for (double* x : {&c.grown_radius, &c.mean_pressure, &c.cell_volume, &c.share, &c.dissipated, &c.plastic_strain, &c.flow_stress}) visit(*x);
+  for (double* x : {&c.grown_radius, &c.cell_volume, &c.share, &c.dissipated, &c.plastic_strain, &c.flow_stress}) visit(*x);
   for (double& x : c.strain) visit(x);
   visit(closed);
   c.closed = closed != 0.0;
 }
-inline constexpr int side_numbers = 18, confined_numbers = 14;
+inline constexpr int side_numbers = 20, confined_numbers = 13;
 
 /// A side in a step. `advance`: by which its overlap grows.
 struct SideStep
@@ -155,8 +155,8 @@ class ConfinedParticle
   std::span<const SideAnswer> advance_apart(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room);
   bool move(std::span<const SideStep> steps);
   void refresh(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room);
-  void grow(const PlasticBody& body, ConfinedRoom& room);
-  void cut(const PlasticBody& body, bool grows, ConfinedRoom& room);
+  void grow(ConfinedRoom& room);
+  void cut(bool grows, ConfinedRoom& room);
   void couple(const PlasticBody& body);
   void press_closed_cell(const PlasticBody& body, bool refreshed);
   void predict(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room);
@@ -189,7 +189,7 @@ inline ShearAnswer advance_shear(SideState& side, const SideAnswer& now, const V
   const auto energy = [&](const Vector& t) { return side.shear_stiffness > 0 ? 0.5 * dot(t, t) / side.shear_stiffness : 0.0; };
   if (!(force > 0)) {
     answer.friction = energy(side.shear);
-    side.shear = {};
+    side.shear = {}, side.sheared = 0;
     return answer;
   }
   const double held = energy(side.shear);
@@ -208,6 +208,7 @@ inline ShearAnswer advance_shear(SideState& side, const SideAnswer& now, const V
     t = times(t, part);
   }
   side.shear = answer.force = t;
+  side.sheared = flow_ratio * dot(t, t) / (force * force);
   return answer;
 }
 

@@ -16,7 +16,9 @@ struct ConfinedModes
   {
     return std::min(height / radius, 1.0) * std::exp(-0.3 * area / (M_PI * height * height));
   }
-  /// `cosine`: of the two normals; `filters`: f_i f_j.
+  /// Part of those flows that the free surface leaves: what flows between faces has to come out there.
+  static double open(double free_share) { return std::sqrt(std::min(free_share / 0.2, 1.0)); }
+  /// `cosine`: of the two normals; `filters`: f_i f_j, times the open part.
   static double coupling(double cosine, double filters)
   {
     const double c = std::min(cosine, 1.0), t = reach * filters;

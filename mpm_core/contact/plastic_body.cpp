@@ -39,10 +39,12 @@ PlasticBody::PlasticBody(const Curve& curve, double youngs_modulus, double poiss
   std::vector<Point> of(points + 1);
   double ball = 1;
   for (std::size_t k = 1; k <= points; ++k) {
-    const double part = static_cast<double>(k) / points, overlap = deepest * part * part, d = 1.0 - overlap;  // fine where it is small
+    const double part = static_cast<double>(k) / points, overlap = deepest * part * part;  // fine where it is small
+    const PairAnswer now = pair(overlap, overlap);
+    const double height = 1.0 - overlap, strain = now.force * height / (confined_volume * modulus_);
+    const double elastic = 2.0 * now.stored / now.force + (1.0 - own_part) * height * strain, d = height + elastic;
     ball = grown(d, ball);
     const double area = M_PI * (ball * ball - d * d), filter = ConfinedModes::filter(d, ball, area);
-    const PairAnswer now = pair(overlap, overlap);
     const double modes = std::min(std::sqrt(ConfinedModes::coupling(1.0, filter * filter)) * now.force * d / confined_volume, most_of_modes);
     of[k] = {std::sqrt(area / M_PI), now.force / std::cbrt(1.0 - modes * modes * modes), now.force * now.force / (2.0 * now.stored)};
   }

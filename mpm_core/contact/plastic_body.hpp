@@ -38,6 +38,8 @@ class PlasticBody
   /// What such a contact has dissipated.
   double lost(double deepest) const { return unit_ * curve_->lost(deepest); }
 
+  /// Part of the mean strain of one force that is in the compliance of one contact.
+  static constexpr double own_part = 0.5;
   /// Force that one contact bears whose face has the radius a, where nothing else presses: L'.
   double cap(double radius) const { return at(caps_, radius); }
   /// Stiffness of a spring that stores at that force what the contact gives back.
