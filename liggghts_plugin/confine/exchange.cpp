@@ -8,7 +8,7 @@ namespace granulaw::plugin {
 
 namespace {
 
-constexpr int head_numbers = 3 + confined_numbers;  // number of sides, reach, the particle's number
+constexpr int head_numbers = 4 + confined_numbers;  // number of sides, reach, the particle's number, whether it is pressed
 /// Smallest stiffness in a plane's move, over Y R: of a face without an area.
 constexpr double least_stiffness = 1e-6;
 
@@ -56,7 +56,7 @@ int FixConfined::pack(Particle& particle, double* buffer) const
 {
   double* out = buffer;
   const auto write = [&](double x) { *out++ = x; };
-  write(static_cast<double>(particle.links.size())), write(particle.reach), write(particle.number);
+  write(static_cast<double>(particle.links.size())), write(particle.reach), write(particle.number), write(particle.pressed);
   visit_numbers(particle.law.state, write);
   for (SideState& side : particle.law.sides) visit_numbers(side, write);
   return static_cast<int>(out - buffer);
@@ -67,9 +67,9 @@ int FixConfined::unpack(int i, const double* buffer)
   Particle& p = particle(i) = Particle{};
   const double* in = buffer;
   const auto read = [&](double& x) { x = *in++; };
-  double sides = 0.0, number = 0.0;
-  read(sides), read(p.reach), read(number);
-  p.number = static_cast<int>(number);
+  double sides = 0.0, number = 0.0, pressed = 0.0;
+  read(sides), read(p.reach), read(number), read(pressed);
+  p.number = static_cast<int>(number), p.pressed = pressed != 0.0;
   visit_numbers(p.law.state, read);
   p.law.sides.resize(static_cast<std::size_t>(sides)), p.links.resize(p.law.sides.size());
   for (SideState& side : p.law.sides) visit_numbers(side, read);
@@ -166,8 +166,8 @@ const double* FixConfined::sent_side(int i, std::int64_t key, const Vector& norm
 int FixConfined::pack_comm(int n, int* list, double* buffer, int, int*)
 {
   if (sending_ == Sent::reach) {
-    for (int k = 0; k < n; ++k) buffer[k] = grown(list[k]);
-    return 1;
+    for (int k = 0; k < n; ++k) buffer[2 * k] = grown(list[k]), buffer[2 * k + 1] = pressed_[static_cast<std::size_t>(list[k])];
+    return 2;
   }
   const int begin = part_ * sides_a_part * columns_, width = std::min(sides_a_part * columns_, row_ - 1 - begin);
   for (int k = 0; k < n; ++k) {
@@ -181,7 +181,8 @@ int FixConfined::pack_comm(int n, int* list, double* buffer, int, int*)
 void FixConfined::unpack_comm(int n, int first, double* buffer)
 {
   if (sending_ == Sent::reach) {
-    std::copy_n(buffer, n, reach_.data() + first);
+    for (int k = 0; k < n; ++k)
+      reach_[static_cast<std::size_t>(first + k)] = buffer[2 * k], pressed_[static_cast<std::size_t>(first + k)] = buffer[2 * k + 1] != 0.0;
     return;
   }
   const int begin = part_ * sides_a_part * columns_, width = std::min(sides_a_part * columns_, row_ - 1 - begin);

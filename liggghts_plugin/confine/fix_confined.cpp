@@ -12,12 +12,8 @@ namespace granulaw::plugin {
 
 namespace {
 
-/// Steps from one move of the planes between particles to the next: 20 to 100 agree within 1 %.
-constexpr int planes_every = 20;
 /// Of the smaller radius: a plane's largest move, and how near surfaces come before the contact is followed, and how far it is.
 constexpr double largest_way = 2e-3, near = 0.02, far = 0.1;
-/// Of the sum of radii: reach of the neighbour lists. A ball in a bed of density .99 bulges to 1.34 of its radius.
-constexpr double list_reach = 1.4;
 
 }  // namespace
 
@@ -25,7 +21,7 @@ FixConfined::FixConfined(LAMMPS_NS::LAMMPS* lmp_, int narg, char** arg) : Fix(lm
 {
   if (narg > 3) stop_all(lmp, fmt::format("fix {} {}: found '{}', takes no arguments", id, style_name, arg[3]));
   vector_flag = peratom_flag = restart_peratom = create_attribute = 1;
-  size_vector = 6, size_peratom_cols = 4;
+  size_vector = 7, size_peratom_cols = 4;
   global_freq = peratom_freq = nevery = 1;
   extvector = 0;
   comm_forward = largest_row, comm_reverse = 6;
@@ -44,15 +40,17 @@ FixConfined::~FixConfined()
 
 void FixConfined::init()
 {
-  neighbor->register_contact_dist_factor(list_reach);
-  walls_known_ = false;
+  force_reneighbor = !takes_all, next_reneighbor = -1;
+  just_created = 0;  // else Modify::setup() would make all particles new, behind the first forces
+  pressed = nullptr, widens_ = false;
+  walls_known_ = links_known_ = false;
   only_material_.clear();
   const Law& law = session_->pair_law->law;
   const auto& names = session_->pair_options->own_words("materials");
   const double unit = DeckUnits::of(update->unit_style, style_name).pressure();
   const auto types = static_cast<std::size_t>(atom->ntypes + 1);
   bodies_.clear(), bodies_.resize(types);
-  yield_.assign(types, 0.0);
+  yield_.assign(types, 0.0), pressing_overlaps_.assign(types, 0.0);
   counts_.assign(types, nullptr);
   for (int t = 1; t <= atom->ntypes; ++t) {
     const auto at = static_cast<std::size_t>(t);
@@ -64,6 +62,7 @@ void FixConfined::init()
     const LawMaterial& material = found->second.material;
     bodies_[at] = std::make_unique<PlasticBody>(found->second.curve, material.youngs_modulus, material.poisson_ratio, material.flow_stress());
     yield_[at] = material.yield_stress / unit;
+    pressing_overlaps_[at] = pressing_overlaps(*bodies_[at]);
     counts_[at] = &counts->second;
   }
   friction_ = nullptr;
@@ -76,7 +75,9 @@ void FixConfined::init()
 
 void FixConfined::check_material(int type, const BodyLaw* body)
 {
-  const auto refuse = [&](const std::string& why) { stop_all(lmp, "pair_style gran model mpm: 'confinement on' " + why); };
+  const auto refuse = [&](const std::string& why) {
+    stop_all(lmp, fmt::format("pair_style gran model mpm: 'confinement {}' {}", takes_all ? "on" : "auto", why));
+  };
   if (!body || !body->material.yields()) refuse(fmt::format("needs particles that yield: those of type {} are elastic", type));
   const std::string& name = body->material.name;
   if (!body->is_sphere()) refuse(fmt::format("needs homogeneous spheres: '{}' of type {} has layers or a shape", name, type));
@@ -103,9 +104,10 @@ void FixConfined::find_walls()
 void FixConfined::renew(const LAMMPS_NS::NeighList& list)
 {
   const int nlocal = atom->nlocal, count = nlocal + atom->nghost;
+  links_known_ = true;
   if (!walls_known_) find_walls();
   follow_numbers();
-  reach_.resize(static_cast<std::size_t>(count));
+  reach_.resize(static_cast<std::size_t>(count)), pressed_.resize(static_cast<std::size_t>(count));
   for (int i = 0; i < nlocal; ++i) {
     Particle& p = particle(i);
     if (!std::exchange(p.restored, true)) p.law.restore(body(i), room_);
@@ -113,7 +115,7 @@ void FixConfined::renew(const LAMMPS_NS::NeighList& list)
       if (p.law.sides[q].key > 0) p.links[q].partner = p.links[q].slot = -1;
     reach_[static_cast<std::size_t>(i)] = p.reach * atom->radius[i];
   }
-  send(Sent::reach);
+  mark_pressed();
   check_reach();
   std::size_t slots = 0;
   for (int ii = 0; ii < list.inum; ++ii) slots += static_cast<std::size_t>(list.numneigh[list.ilist[ii]]);
@@ -152,8 +154,6 @@ void FixConfined::compute(PairGran& pair, const Observer* observer)
 {
   if (pair.computeflag()) {
     const int nlocal = atom->nlocal;
-    advances_ = pair.shearupdate() != 0;
-    if (neighbor->ago == 0) renew(*pair.list);
     const bool moves_planes = advances_ && update->ntimestep % planes_every == 0;
     if (moves_planes) {
       for (int i = 0; i < nlocal; ++i) {
@@ -183,6 +183,7 @@ void FixConfined::collect(const LAMMPS_NS::NeighList& list)
     for (int jj = 0; jj < count; ++jj) {
       if (taken[jj]) continue;
       const int j = neighbours[jj] & NEIGHMASK;
+      if (!(pressed_[static_cast<std::size_t>(i)] | pressed_[static_cast<std::size_t>(j)])) continue;
       const Vector d{x[3 * j] - x[3 * i], x[3 * j + 1] - x[3 * i + 1], x[3 * j + 2] - x[3 * i + 2]};
       const double limit = reach[i] + reach[j] + near * std::min(radius[i], radius[j]), d2 = dot(d, d);
       if (!(d2 < limit * limit)) continue;
@@ -224,6 +225,12 @@ Confinement::AtWall FixConfined::at_wall(const FixWallGran& wall, const ContactD
                                          int triangle, ForceData& on_i)
 {
   const int i = contact.i;
+  if (seeks_) {
+    Load& load = loads_[static_cast<std::size_t>(i)];
+    if (const double overlap = atom->radius[i] - contact.r; overlap > 0) load.overlaps += overlap / atom->radius[i], ++load.contacts;
+    return AtWall::collected;
+  }
+  if (!pressed_[static_cast<std::size_t>(i)]) return collecting_ ? AtWall::collected : AtWall::apart;
   Particle& p = particle(i);
   const Vector normal{-contact.en[0], -contact.en[1], -contact.en[2]};
   const WallPlanes::Key key = walls_.at(&wall).key(mesh, triangle);
@@ -237,10 +244,20 @@ Confinement::AtWall FixConfined::at_wall(const FixWallGran& wall, const ContactD
     return AtWall::acts;
   }
   const double radius = atom->radius[i];
+  HandedOver had;
+  if (contact.contact_history) {
+    had = session_->contacts_of(&wall)->hand_over({contact.itype, contact.jtype, radius, flat, radius - contact.r, contact.contact_history},
+                                                  times(normal, -1.0), 1.0);
+    std::fill_n(contact.contact_history, wall.dnum(), 0.0);
+  }
   if (q < 0) {
     if (!(contact.r < grown(i) + near * radius)) return AtWall::collected;
-    q = p.law.insert(key, normal, 1.0 - contact.r / radius);
-    p.links.insert(p.links.begin() + q, Link{});
+    if (had.largest_overlap > 0)
+      q = take_side(i, key, {}, normal, contact.r, radius - contact.r, had.largest_overlap, had.shear, had.stored);
+    else {
+      q = p.law.insert(key, normal, 1.0 - contact.r / radius);
+      p.links.insert(p.links.begin() + q, Link{});
+    }
     p.walls.insert(p.walls.begin() + q, Wall{});
   }
   Wall& now = p.walls[static_cast<std::size_t>(q)];
@@ -280,6 +297,7 @@ bool FixConfined::follow(int i, int q, bool moves_planes)
   double way = is_new || !advances_ ? 0.0 : side.distance - now.distance;
   if (!is_wall) way *= 0.5;
   if (advances_ && is_new) {  // what began with an overlap, inserted or read, is pressed there now
+    side.overlap = is_wall ? 1.0 - now.distance / radius : 1.0 - 0.5 * (now.distance + grown(i) - grown(j)) / radius;
     way = std::max(side.overlap, 0.0) * radius;
     side.overlap = std::min(side.overlap, 0.0);
     begins_pressed_ |= way > 0.0;
@@ -306,12 +324,12 @@ void FixConfined::step(int i, bool moves_planes, bool keeps_halves)
   for (int q = 0; q < static_cast<int>(p.links.size());)
     if (follow(i, q, moves_planes)) ++q;
   if (keeps_halves) p.halves.resize(p.links.size());
+  p.area = 0.0;
   if (p.links.empty()) return;
   const double held = begins_pressed_ ? p.law.state.dissipated + p.law.stored(body(i)) : 0.0;
-  const std::span<const SideAnswer> answers = advances_ ? p.law.advance(body(i), steps_, room_) : p.law.answers(room_);
+  const std::span<const SideAnswer> answers = advances_ ? p.law.advance(body(i), steps_, room_, p.pressed) : p.law.answers(room_);
   const double unit = force_unit(i), energy = unit * atom->radius[i];
   double taken = (p.law.state.dissipated - dissipated) * energy, other = 0.0, paid = 0.0;
-  p.area = 0.0;
   for (std::size_t q = 0; q < p.links.size(); ++q) {
     SideState& side = p.law.sides[q];
     const SideAnswer& answer = answers[q];
@@ -334,7 +352,7 @@ void FixConfined::step(int i, bool moves_planes, bool keeps_halves)
   if (begins_pressed_) ++counts.sudden, counts.brought += (p.law.state.dissipated + p.law.stored(body(i)) - held - paid) * energy;
   if (const ParticleColumns energies = session_->energy ? session_->energy->per_atom : ParticleColumns()) {
     double* const row = energies.rows()[i];
-    row[EnergyTally::stored] = p.law.stored(body(i)) * energy;
+    row[EnergyTally::stored] += p.law.stored(body(i)) * energy;
     row[EnergyTally::dissipated] += taken, row[EnergyTally::other_work] += other;
   }
 }
@@ -435,9 +453,10 @@ double FixConfined::compute_vector(int n)
   for (int i = 0; i < atom->nlocal && n != 5; ++i) {
     const Particle& p = particle(i);
     if (n == 0) own += p.law.confined();
+    if (n == 6) own += p.pressed;
     if (n == 1) own += p.law.state.closed;
     if (n == 2) own = std::max(own, p.law.state.grown_radius);
-    for (std::size_t q = 0; n > 2 && q < p.links.size(); ++q) {
+    for (std::size_t q = 0; (n == 3 || n == 4) && q < p.links.size(); ++q) {
       const SideState& side = p.law.sides[q];
       const int j = p.links[q].partner;
       if (side.key > 0 && j >= 0 && side.force > 0) own += n == 3 ? 0.5 : 0.5 * (side.distance > atom->radius[i] + atom->radius[j]);
@@ -454,7 +473,7 @@ void FixConfined::write_rows()
     if (!bodies_[static_cast<std::size_t>(atom->type[i])]) continue;
     const double unit = force_unit(i), radius = atom->radius[i];
     double* const row = rows_[i];
-    row[0] = p.law.pressure() * yield(i), row[1] = p.area * radius * radius, row[2] = p.law.free_share();
+    row[0] = p.links.empty() ? 0.0 : p.law.pressure() * yield(i), row[1] = p.area * radius * radius, row[2] = p.law.free_share();
     row[3] = p.law.state.dissipated * unit * radius;
   }
 }

@@ -17,8 +17,12 @@ namespace granulaw::plugin {
 /// (mpm_core/contact/confined.hpp). A contact of two particles is two halves: the owner of each puts half of its force on its own
 /// particle, and the opposite on the neighbour. Halves on ghosts reach their owner by one reverse sum of six columns.
 ///
+/// `confinement auto`: only a particle that is pressed has all of its contacts here (look()). A neighbour that is not has its side of
+/// that one contact alone, and follows the pair law there.
+///
 /// Global vector: 1 confined particles, 2 particles whose cell is closed, 3 largest radius of a bulged sphere over its own, 4 contacts
-/// with a force, 5 those of them beyond the sum of the radii, 6 contacts with a force that left the neighbour lists so far.
+/// with a force, 5 those of them beyond the sum of the radii, 6 contacts with a force that left the neighbour lists so far, 7 particles
+/// whose contacts are all here.
 /// Per atom, in the deck's units: 1 mean pressure, 2 area of its contacts, 3 share of its surface that is free, 4 plastic work.
 class FixConfined final : public LAMMPS_NS::Fix, public Confinement
 {
@@ -28,13 +32,20 @@ class FixConfined final : public LAMMPS_NS::Fix, public Confinement
   FixConfined(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
   ~FixConfined() override;
 
-  int setmask() override { return LAMMPS_NS::FixConst::END_OF_STEP; }
+  int setmask() override { return LAMMPS_NS::FixConst::END_OF_STEP | LAMMPS_NS::FixConst::PRE_EXCHANGE; }
   void init() override;
   void setup_pre_exchange() override { reserve_exchange(); }
+  void pre_exchange() override;
   void setup(int) override { write_rows(); }
-  void end_of_step() override { write_rows(); }
+  void end_of_step() override
+  {
+    if (takes_some) write_rows();
+  }
   double compute_vector(int n) override;
 
+  /// Before LIGGGHTS chooses its cells and ghosts for a run: they reach as far as bulged particles do. Collective.
+  void widen_lists();
+  void choose(PairGran& pair) override;
   void compute(PairGran& pair, const Observer* observer) override;
   AtWall at_wall(const FixWallGran& wall, const ContactData& contact, const double* wall_velocity, int mesh, int triangle, ForceData& on_i) override;
 
@@ -90,10 +101,19 @@ class FixConfined final : public LAMMPS_NS::Fix, public Confinement
     double reach = 1;          // grown radius that others have
     double area = 0;           // of all faces, over R^2
     int number = 0;            // the particle's, when its sides were named
+    bool pressed = false;      // all of its contacts are sides
     bool restored = true;      // the law's caches follow from its state
   };
-  /// What ghosts get: reach_; of each side its full force and stiffness, or its half. Sides go in parts, so that the buffers are small.
+  /// A pair's or wall's own contacts, from which a particle is seen to be pressed.
+  struct Load
+  {
+    double overlaps = 0;  // sum, over the radius
+    int contacts = 0;
+  };
+  /// What ghosts get: reach_ and pressed_; of each side its full force and stiffness, or its half. Sides go in parts, so that the buffers are small.
   enum class Sent { reach, planes, halves };
+  /// Steps from one move of the planes between particles to the next: 20 to 100 agree within 1 %. As often look() looks.
+  static constexpr int planes_every = 20;
   static constexpr int sides_a_part = 12, name_columns = 4, most_columns = name_columns + 7, largest_row = 1 + sides_a_part * most_columns;
 
   static int record_size(const Particle& particle);
@@ -102,9 +122,21 @@ class FixConfined final : public LAMMPS_NS::Fix, public Confinement
   int pack(Particle& particle, double* buffer) const;
   int unpack(int i, const double* buffer);
 
+  /// Sum of a particle's overlaps, over R, from which it is pressed: the pressure of its contacts is no larger than that says.
+  static double pressing_overlaps(const PlasticBody& body);
   void check_material(int type, const BodyLaw* body);
   void find_walls();
   void follow_numbers();
+  /// Particles that begin to be pressed, or end. Collective. Number of them.
+  int look(const LAMMPS_NS::NeighList& list);
+  void mark_pressed();
+  /// Contacts of pressed particles that the pair loop has.
+  void take_over(PairGran& pair);
+  /// A contact that its loop had. `shear`: on the particle, the side's part.
+  int take_side(int i, std::int64_t key, const Link& link, const Vector& normal, double distance, double overlap, double deepest, const Vector& shear,
+                double stored);
+  /// Sides that no pressed particle has.
+  void drop_sides();
   /// After lists were made anew: the neighbour of each side.
   void renew(const LAMMPS_NS::NeighList& list);
   void check_reach() const;
@@ -140,11 +172,14 @@ class FixConfined final : public LAMMPS_NS::Fix, public Confinement
   std::vector<std::unique_ptr<PlasticBody>> bodies_;  // by type; null: no particle has it
   std::string only_material_;  // of all particles
   std::vector<double> yield_;                         // by type, deck's unit
+  std::vector<double> pressing_overlaps_;             // by type
   std::vector<ContactStatistics::Pair*> counts_;      // by type
   const double* const* friction_ = nullptr;           // by types; null: none
   std::map<const FixWallGran*, WallPlanes> walls_;
-  bool walls_known_ = false;
+  bool walls_known_ = false, links_known_ = false, seeks_ = false, widens_ = false;
   std::vector<Particle> particles_;
+  std::vector<Load> loads_;           // in look()
+  std::vector<char> pressed_;         // of particles and ghosts
   std::vector<double> reach_;         // of particles and ghosts, m: radius times Particle::reach
   std::vector<double> ghost_halves_;  // force and torque on each ghost
   std::vector<char> taken_;           // of each slot of the neighbour list: all owners have the side

@@ -1,4 +1,4 @@
-// `confinement on`: what it refuses, and the fix that does it.
+// `confinement`: what it refuses, and the fix that does it.
 #include <fmt/format.h>
 
 #include <cstring>
@@ -18,13 +18,15 @@ bool says_confinement(const Options& options)
 
 void provide_confinement(LAMMPS_NS::LAMMPS* lmp, const Options& options)
 {
-  if (says_confinement(options)) provide_fix<FixConfined>(lmp, "granulaw_confined", FixConfined::style_name);
+  if (!says_confinement(options)) return;
+  provide_fix<FixConfined>(lmp, "granulaw_confined", FixConfined::style_name);
+  if (auto* const fix = dynamic_cast<FixConfined*>(Session::of(lmp)->confinement)) fix->widen_lists();
 }
 
 void check_confinement(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)
 {
   if (!says_confinement(setup.options)) return;
-  const auto refuse = [&](const std::string& why) { fail(setup.where, "'confinement on' " + why); };
+  const auto refuse = [&](const std::string& why) { fail(setup.where, fmt::format("'confinement {}' {}", setup.options.own_words("confinement")[0], why)); };
   const ModelIds ids = ModelIds::of(setup.meaning.combination);
   if (ids.superquadric()) refuse("is for spheres, not for 'surface superquadric'");
   if (ids.cohesion != cm::COHESION_OFF) refuse("knows no cohesion: leave out 'cohesion'");

@@ -220,6 +220,23 @@ class ElementHost : public ContactInquiry
       counts_.take_out(counts->second, contact.history, delta_max, contact.r_eff(), weight);
   }
 
+  HandedOver hand_over(const ContactPlace& contact, const Vector& normal, double weight) const override
+  {
+    double* const history = history_of(contact.history);
+    if (State::largest(history) == 0.0) return {};
+    if (books_later_) settle(contact, weight);
+    if (!(contact.overlap > 0)) return {};  // it ends
+    const double r_eff = contact.r_eff();
+    const Element& element = pairs_.of(contact.itype, contact.jtype, contact.radius_i, contact.radius_j).element;
+    HandedOver found{State::largest(history), element.normal.stored_energy(r_eff, contact.overlap, State::largest(history), State::impact_overlap(history)), {}};
+    ContactMotion at_rest;
+    at_rest.r_eff = r_eff, at_rest.overlap = contact.overlap, at_rest.approach = 0.0, at_rest.advances = false;
+    at_rest.m_eff = 1.0, at_rest.dt = lmp_->update->dt, at_rest.normal = normal;
+    Ledger nothing;
+    if constexpr (!Element::has_beside) found.shear = element.advance(at_rest, history, nothing).shear;
+    return found;
+  }
+
  private:
   /// The adapter's part in a step of the element.
   template <class Others>

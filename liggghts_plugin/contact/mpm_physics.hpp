@@ -34,7 +34,7 @@ class MpmPhysics
       Keyword{.name = "law"},  // FILE; a wall that does not say it takes the pair style's
       Keyword{.name = "materials", .list = "one name for each atom type"},  // type 1 first
       beyond_range,
-      Keyword{.name = "confinement", .in_wall = false, .words = {"on", "off"}},  // all contacts of a particle at once
+      Keyword{.name = "confinement", .in_wall = false, .words = {"on", "off", "auto"}},  // all contacts of a particle at once
       Keyword{.name = "waves", .words = {"on", "off"}},  // whether composed laws radiate (PairLaw::radiation)
   };
   using Contact = MpmContact;

@@ -50,6 +50,14 @@ struct ContactPlace
   }
 };
 
+/// What a contact leaves to another law. Deck's units.
+struct HandedOver
+{
+  double largest_overlap = 0;  ///< 0: nothing
+  double stored = 0;           ///< that the normal law would give back
+  Vector shear{};              ///< force on the first body
+};
+
 /// A contact model, asked about single contacts.
 class ContactInquiry
 {
@@ -63,6 +71,9 @@ class ContactInquiry
   /// Takes a contact that is open out of the contact statistics' histogram: see
   /// ContactStatistics::Pair::overlap.
   virtual void take_out(ContactStatistics& statistics, const ContactPlace& contact, double weight) const = 0;
+  /// For another law that goes on with the contact; books here what it did. `normal`: from the second body to the first. Its
+  /// history is to be cleared.
+  virtual HandedOver hand_over(const ContactPlace& contact, const Vector& normal, double weight) const = 0;
 };
 
 /// A contact that is open on this rank.

@@ -77,10 +77,10 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     copy_predefined_histories(pair);
     const bool observed = pair->evflag || (pair->cpl() && addflag) || pair->storeContactForces() ||
                           pair->storeContactForcesStress() || pair->store_sum_normal_force();
-    if (confinement_ && *confinement_) [[unlikely]]
-      confine(**confinement_, pair, observed, addflag);
-    else
-      run_walk(pair, observed, addflag);
+    Confinement* const confinement = confinement_ ? *confinement_ : nullptr;
+    if (confinement) [[unlikely]] confinement->choose(*pair);
+    if (!confinement || !confinement->takes_all) run_walk(pair, observed, addflag);
+    if (confinement && confinement->takes_some) [[unlikely]] confine(*confinement, pair, observed, addflag);
     if (pair->cpl() && addflag) pair->cpl_pair_finalize();
     if (pair->storeContactForces()) pair->fix_contact_forces()->do_forward_comm();
     if (pair->storeContactForcesStress()) pair->fix_contact_forces_stress()->do_forward_comm();
@@ -106,7 +106,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   ContactModel& model() { return model_; }
   /// From where the masses of rigid bodies come.
   void set_bodies(const Bodies* bodies) { bodies_ = bodies; }
-  /// Who computes the forces in the place of this loop; null: nobody.
+  /// Who computes the forces of confined particles in the place of this loop; null: nobody.
   void set_confinement(Confinement* const* confinement) { confinement_ = confinement; }
 
  private:
@@ -151,6 +151,7 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
     bool rigid;     // spheres may be part of fix rigid's bodies
     bool newton;    // forces on ghosts count
     bool observed;  // tell_observers
+    const char* confined;  // of particles and ghosts: contacts are not this loop's; null: all are
   };
   /// True if spheres that do not touch may act on each other; also those that have not touched (liquid bridges): all within
   /// LIGGGHTS's contact distance are visited then.
@@ -204,9 +205,10 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
             .frozen = pair->freeze_group_bit(),
             .rigid = pair->fr_pair() && bodies_ && bodies_->known(),
             .newton = lmp_->force->newton_pair != 0,
-            .observed = observed};
+            .observed = observed,
+            .confined = confinement_ && *confinement_ ? (*confinement_)->pressed : nullptr};
   }
-  /// The forces of `confinement on`.
+  /// The forces of confined particles.
   [[gnu::noinline, gnu::cold]] void confine(Confinement& confinement, PairGran* pair, bool observed, int addflag)
   {
     const Pass pass = pass_of(pair, observed, addflag);
@@ -271,6 +273,8 @@ class PairLoop : public LIGGGHTS::PairStyles::IGranularPairStyle
   void visit(const Pass& pass, const Particles& particles, const Candidate& candidate)
   {
     const int i = candidate.i, j = candidate.j;
+    if (pass.confined) [[unlikely]]
+      if (pass.confined[i] | pass.confined[j]) return;
     const double *const xi = particles.x + 3 * i, *const xj = particles.x + 3 * j;
     SurfacesIntersectData contact;
     ForceData on_i, on_j;

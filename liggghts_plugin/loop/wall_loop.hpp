@@ -82,10 +82,13 @@ class WallLoop : public LIGGGHTS::Walls::IGranularWall
 
     const double overlap = contact.deltan;  // a body behind the contact takes a part of it
     ForceData on_i, on_wall;
-    if (confinement_ && *confinement_) [[unlikely]] {
-      const Confinement::AtWall now = (*confinement_)->at_wall(*wall, contact, wall_velocity, mesh_number, mesh ? mesh->id(triangle) : -1, on_i);
-      if (now == Confinement::AtWall::collected) return;
-      touches = contact.has_force_update = now == Confinement::AtWall::acts;
+    using AtWall = Confinement::AtWall;
+    AtWall confined = AtWall::apart;
+    if (confinement_ && *confinement_ && (*confinement_)->asks_walls) [[unlikely]]
+      confined = (*confinement_)->at_wall(*wall, contact, wall_velocity, mesh_number, mesh ? mesh->id(triangle) : -1, on_i);
+    if (confined == AtWall::collected) return;
+    if (confined != AtWall::apart) {
+      touches = contact.has_force_update = confined == AtWall::acts;
     } else if (contact.has_force_update = touches; touches) {
       model_.surfacesIntersect(contact, on_i, on_wall);
       model_.endSurfacesIntersect(contact, mesh, on_i, on_wall);
@@ -123,7 +126,7 @@ class WallLoop : public LIGGGHTS::Walls::IGranularWall
 
  protected:
   ContactModel& model() { return model_; }
-  /// Who knows the forces in the place of this loop; null: nobody.
+  /// Who knows the forces on confined particles in the place of this loop; null: nobody.
   void set_confinement(Confinement* const* confinement) { confinement_ = confinement; }
 
   /// The overlap whose circle heat passes through, in LIGGGHTS's formula: area pi (R^2 - (R - overlap)^2). `overlap`: the geometric one.

@@ -89,6 +89,16 @@ int ConfinedParticle::insert(std::int64_t key, const Vector& normal, double over
   return static_cast<int>(place);
 }
 
+int ConfinedParticle::take(const PlasticBody& body, std::int64_t key, const Vector& normal, double overlap, double deepest)
+{
+  const int place = insert(key, normal, overlap);
+  SideState& side = sides[static_cast<std::size_t>(place)];
+  side.deepest = std::max(deepest, overlap), side.touched = true;
+  side.force = body.pair(overlap, side.deepest).force;
+  dissipate(body, body.lost(side.deepest));
+  return place;
+}
+
 void ConfinedParticle::remove(int i)
 {
   const SideState& s = sides[static_cast<std::size_t>(i)];
@@ -103,9 +113,9 @@ void ConfinedParticle::dissipate(const PlasticBody& body, double energy)
   if (body.hardens()) state.plastic_strain = std::max(state.plastic_strain + energy / (confined_volume * body.flow_stress(state.plastic_strain)), 0.0);
 }
 
-std::span<const SideAnswer> ConfinedParticle::advance(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room)
+std::span<const SideAnswer> ConfinedParticle::advance(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room, bool whole)
 {
-  if (!confined()) return advance_apart(body, steps, room);
+  if (!confined()) return advance_apart(body, steps, room, whole);
   const bool stale = move(steps);
   if (stale) refresh(body, steps, room);
   press_closed_cell(body, stale);
@@ -137,7 +147,7 @@ std::span<const SideAnswer> ConfinedParticle::advance(const PlasticBody& body, s
 }
 
 /// The pair law of each side by itself; confines the particle where it must.
-std::span<const SideAnswer> ConfinedParticle::advance_apart(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room)
+std::span<const SideAnswer> ConfinedParticle::advance_apart(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room, bool whole)
 {
   room.answers.resize(sides.size()), room.of_pair.resize(sides.size());
   int loaded = 0;
@@ -160,7 +170,7 @@ std::span<const SideAnswer> ConfinedParticle::advance_apart(const PlasticBody& b
     pressure_ += now.force * (1.0 - s.overlap) / (3.0 * confined_volume);
     loaded += now.force > 0;
   }
-  if (pressure_ > begins_at && loaded > 1) confine(body, room.of_pair);
+  if (whole && pressure_ > begins_at && loaded > 1) confine(body, room.of_pair);
   return room.answers;
 }
 

@@ -127,12 +127,15 @@ class ConfinedParticle
   int find(std::int64_t key, const Vector& normal) const;
   /// Position of a new side. `overlap`: before the next step.
   int insert(std::int64_t key, const Vector& normal, double overlap);
+  /// Position of a new side that the pair law had: its overlap and the largest one. Not of a particle that is confined.
+  int take(const PlasticBody& body, std::int64_t key, const Vector& normal, double overlap, double deepest);
   /// Its elastic energy is booked as dissipated.
   void remove(int i);
 
   /// One step of all sides: `steps` in their order. Answers are in their order, too, and stay until the room's next use. A
-  /// particle that is not confined answers by the pair law, to the bit; from begins_at on it is confined.
-  std::span<const SideAnswer> advance(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room);
+  /// particle that is not confined answers by the pair law, to the bit; from begins_at on it is confined. `whole`: these are all of
+  /// its contacts; else it is not.
+  std::span<const SideAnswer> advance(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room, bool whole = true);
   /// The answers of the state as it is: nothing advances.
   std::span<const SideAnswer> answers(ConfinedRoom& room) const;
 
@@ -152,7 +155,7 @@ class ConfinedParticle
     double area, filter, lever;  // lever: d/V
     std::array<double, 6> dyad;  // n n, at a height d: d n n
   };
-  std::span<const SideAnswer> advance_apart(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room);
+  std::span<const SideAnswer> advance_apart(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room, bool whole);
   bool move(std::span<const SideStep> steps);
   void refresh(const PlasticBody& body, std::span<const SideStep> steps, ConfinedRoom& room);
   void grow(ConfinedRoom& room);
