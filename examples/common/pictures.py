@@ -18,10 +18,10 @@ def panels(count, width=4.2, height=3.2):
     return figure, axes[0]
 
 
-def band(ax, x, curves, model, log=False):
+def band(ax, x, curves, model, log=False, line="-"):
     """Mean of the seeds' curves (rows) with their range."""
     curves = np.asarray(curves)
-    ax.plot(x, curves.mean(axis=0), color=colour(model), label=model, lw=1.3)
+    ax.plot(x, curves.mean(axis=0), color=colour(model), label=model, lw=1.3, ls=line)
     if len(curves) > 1:
         ax.fill_between(x, curves.min(axis=0), curves.max(axis=0), color=colour(model), alpha=0.2, lw=0)
     if log:

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""Compression: uniaxial, in a frictionless die, to overlaps where pair laws end.
+"""Compression: uniaxial, in a frictionless die, to overlaps where pair laws end; and of a packing beside resolved spheres.
 
     run.py [-o out/compression] [--seeds 5] [--quick]
 
-Writes report.md, compression.csv and compression.png."""
+Writes report.md, compression.csv, packing.csv, compression.png and packing.png."""
+import copy
+import csv
 import pathlib
 import sys
 
@@ -19,6 +21,11 @@ from spread import write_tables  # noqa: E402
 RADIUS, DENSITY = 3e-3, 920.0  # as materials.toml
 SPEED = 0.2                    # m/s of the lid: rho V^2/Y = 4e-5, far from inertia
 FRACTIONS = (0.60, 0.65, 0.70, 0.75, 0.80)  # volume of the spheres / volume of the die, where stresses are read
+CONFINED = "mpm, confinement on"
+PACKING = HERE.parent / "benchmark" / "bed_30.txt"            # x y z R over R, in a periodic box
+RESOLVED = np.array([(0.63, 0.0794), (0.68, 0.1772), (0.73, 0.2909), (0.78, 0.4077), (0.83, 0.5507), (0.88, 0.7321), (0.93, 1.0018),
+                     (0.98, 1.4591)]).T  # solid volume and stress over Y by mpm compact, 12 cells a diameter (docs/evidence/packings.md)
+MODULUS, YIELD_STRESS, FIRST, LAST = 91e6 / (1 - 0.3**2), 1e6, 0.58, 1.005  # E* and Y of wax, Pa; solid volumes of the packing
 OVERLAP = 0.1  # overlap of a sphere over R (half the overlap): beyond it no single pair law holds (docs/evidence/pairs.md)
 
 
@@ -42,6 +49,50 @@ def measure(folder, die):
     return found, curve
 
 
+def models_of(args):
+    """Names in tables and pictures, their models, and what sweep.run has to know."""
+    for model in args.models:
+        yield sweep.label(args, model), model, {}, ""
+    if "mpm" in args.models and args.stretch == 1:
+        yield CONFINED, "mpm", {"map": "off"}, " confinement on"
+
+
+def press_packing(args, out, law):
+    """Solid volume and stress over Y under each model, to full density."""
+    rate, step = 1e-3 * np.sqrt(MODULUS / DENSITY) / RADIUS, (0.2 if args.quick else 0.05) * RADIUS / np.sqrt(MODULUS / DENSITY)
+    places = np.loadtxt(PACKING)[:, :3]
+    volume = len(places) * 4 / 3 * np.pi * RADIUS**3
+    side = (volume / FIRST)**(1 / 3)
+    clouds.write_data(out / "packing.data", places * RADIUS % side, RADIUS, DENSITY, (0, 0, 0), (side, side, side))
+    steps = round((1 - (FIRST / LAST)**(1 / 3)) / rate / step)
+    plain = copy.copy(args)
+    plain.stretch = 1.0
+    found = {}
+    for name, model, words, more in models_of(plain):
+        folder = sweep.run(plain, HERE / "in.packing", model, out / f"packing-{name.split(', ')[-1].replace(' ', '-')}", [out / "packing.data"], law,
+                           {"scene": out, "dt": step, "rate": rate, "press": steps, "spheres": volume, **words}, "beyondRange continue" + more)
+        found[name] = np.loadtxt(folder / "series.csv", delimiter=",", skiprows=1).T / [[1.0], [YIELD_STRESS]]
+    with open(out / "packing.csv", "w") as file:
+        file.write("# mean stress over the yield stress, over 0.01 of the solid volume\n")
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["solid volume", "resolved", *found])
+        for at, stress in RESOLVED.T:
+            table.writerow([at, stress] + [f"{curve[1][abs(curve[0] - at) <= 0.005].mean():.4g}" for curve in found.values()])
+    return found
+
+
+def draw_packing(found, out):
+    pictures.COLOURS[CONFINED] = pictures.COLOURS["mpm"]
+    figure, (ax,) = pictures.panels(1, 5, 3.6)
+    window = np.ones(15) / 15
+    for m, (filled, stress) in found.items():
+        pictures.band(ax, np.convolve(filled, window, "valid"), [np.convolve(stress, window, "valid")], m, line="--" if m == CONFINED else "-")
+    ax.plot(*RESOLVED, "ko", ms=4, label="resolved spheres (solver)")
+    ax.set(xlabel="solid volume", ylabel="mean stress / yield stress", ylim=(0, 1.25 * RESOLVED.max()))
+    ax.legend(fontsize=8)
+    pictures.save(figure, out / "packing.png")
+
+
 def main(argv=None):
     parser = sweep.options(__doc__, "out/compression")
     parser.add_argument("--particles", type=int)
@@ -56,6 +107,7 @@ def main(argv=None):
     die = {"side": side, "lid": top + RADIUS, "volume": volume}
     steps = round((die["lid"] - low) / SPEED / dt)
     out, law, tables, curves = pathlib.Path(args.out), sweep.make_law(args), {}, {}
+    deep = sweep.make_law(args, words=("--depth", "0.5"), name="deep.h5")
     for seed in range(1, args.seeds + 1):
         scene = out / f"scene-{seed}"
         scene.mkdir(parents=True, exist_ok=True)
@@ -65,27 +117,28 @@ def main(argv=None):
                           (side + 2 * RADIUS, side + 2 * RADIUS, top + 4 * RADIUS))
         a, b, c, d = (np.array(p + (die["lid"],)) for p in ((-edge, -edge), (side + edge, -edge), (side + edge, side + edge), (-edge, side + edge)))
         write_stl(scene / "lid.stl", "lid", [(a, c, b), (a, d, c)])
-        for model in args.models:
-            name = sweep.label(args, model)
-            folder = sweep.run(args, HERE / "in.compression", model, out / f"{name}-{seed}",
-                               [scene / "cloud.data", scene / "lid.stl"], law,
+        for name, model, words, more in models_of(args):
+            folder = sweep.run(args, HERE / "in.compression", model, out / f"{name.split(', ')[-1].replace(' ', '-')}-{seed}",
+                               [scene / "cloud.data", scene / "lid.stl"], deep if more else law,
                                {"scene": scene, "dt": dt, "side": side, "press": steps,
                                 "speed": SPEED, "every": max(1, round(1e-3 / dt)),
-                                **({"behind": "beyondRange continue"} if model == "mpm" else {})}, "beyondRange continue")
+                                **({"behind": "beyondRange continue"} if model == "mpm" else {}), **words}, "beyondRange continue" + more)
             found, curve = measure(folder, die)
             tables.setdefault(name, []).append(found)
             curves.setdefault(name, []).append(curve)
     samples = write_tables(out, "Compression", f"{particles} spheres, {args.seeds} seeds.", tables)
+    pictures.COLOURS[CONFINED] = pictures.COLOURS["mpm"]
     figure, axes = pictures.panels(2)
     for m, runs in curves.items():
-        grid = np.linspace(0.55, min(c["fraction"][-1] for c in runs), 200)
-        pictures.band(axes[0], grid, [np.interp(grid, c["fraction"], c["stress"]) / 1e6 for c in runs], m)
-        pictures.band(axes[1], grid, [np.interp(grid, c["fraction"], c["overlap"]) for c in runs], m)
+        grid, line = np.linspace(0.55, min(c["fraction"][-1] for c in runs), 200), "--" if m == CONFINED else "-"
+        pictures.band(axes[0], grid, [np.interp(grid, c["fraction"], c["stress"]) / 1e6 for c in runs], m, line=line)
+        pictures.band(axes[1], grid, [np.interp(grid, c["fraction"], c["overlap"]) for c in runs], m, line=line)
     axes[1].axhline(OVERLAP, color="tab:red", lw=0.8)
-    axes[0].set(xlabel="volume of spheres / volume of die", ylabel="stress, MPa")
+    axes[0].set(xlabel="volume of spheres / volume of die", ylabel="stress on the lid, MPa")
     axes[1].set(xlabel="volume of spheres / volume of die", ylabel="largest flattening / R")
     axes[0].legend()
     pictures.save(figure, out / "compression.png")
+    draw_packing(press_packing(args, out, deep), out)
     return samples
 
 
