@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <set>
 
 #include "fix_gravity.h"
 #include "fix_insert_pack.h"
@@ -64,7 +65,7 @@ namespace lmp = LAMMPS_NS;
 
 Planner* planner = nullptr;
 
-using deck::ball_volume, deck::dot, deck::norm;
+using deck::ball_volume, deck::dot, deck::norm, deck::operator-;
 
 /// Part of a motion that may go against gravity where the deck rounds its numbers.
 constexpr double level = 1e-3;
@@ -166,6 +167,8 @@ void Planner::note_style(const lmp::FixWallGran* wall_fix, const std::string& mo
   const auto& law = options.own_words("law");
   record_.law_file = law.empty() ? "" : law[0];
   record_.material_names = options.own_words("materials");
+  const auto& confinement = options.own_words("confinement");
+  record_.confinement = confinement.empty() || confinement[0] == "off" ? "" : confinement[0];
   record_.yield_pressure = yield_pressure_of(options);
 }
 
@@ -552,6 +555,45 @@ void Planner::find_insertions()
   });
 }
 
+double Planner::filled() const
+{
+  const lmp::Domain& domain = *lmp_->domain;
+  std::array<std::set<double>, 3> planes;
+  double room = 1;
+  each_fix([&](lmp::Fix& fix) {
+    auto* gran = dynamic_cast<lmp::FixWallGran*>(&fix);
+    if (!gran) return;
+    if (!gran->is_mesh_wall()) {
+      using namespace LAMMPS_NS::PRIMITIVE_WALL_DEFINITIONS;
+      const int shape = gran->primitiveWall()->*exposed(PrimitiveType{});
+      const double* numbers = gran->primitiveWall()->*exposed(PrimitiveNumbers{});
+      const auto axis = static_cast<std::size_t>(shape <= ZPLANE ? shape - XPLANE : shape - XCYLINDER);
+      if (shape <= ZPLANE) planes[axis].insert(numbers[0]);
+      for (std::size_t k = 0, centre = 1; shape > ZPLANE && k < 3; ++k)
+        if (k != axis) planes[k].insert({numbers[centre] - numbers[0], numbers[centre] + numbers[0]}), ++centre;
+      if (shape > ZPLANE) room = M_PI / 4;
+      return;
+    }
+    for (int m = 0; m < gran->n_meshes(); ++m) {
+      const Box box = look_at(*gran->mesh_list()[m]).box;
+      const double size = norm(box.high - box.low);
+      for (std::size_t k = 0; k < 3; ++k)
+        if (box.high[k] - box.low[k] < 1e-6 * size) planes[k].insert(box.low[k]);
+    }
+  });
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (domain.periodicity[k])
+      room *= domain.boxhi[k] - domain.boxlo[k];
+    else if (planes[k].size() == 2)
+      room *= *planes[k].rbegin() - *planes[k].begin();
+    else
+      return 0;
+  }
+  double solid = 0;
+  for (const Source& s : record_.sources) solid += s.count * 0.5 * (ball_volume(s.radius_min) + ball_volume(s.radius_max));
+  return room > 0 ? solid / room : 0;
+}
+
 /// In the dry run's second step nothing is inserted: it stands for the run's last.
 void Planner::hold_insertions()
 {
@@ -587,6 +629,12 @@ void Planner::end_run(int steps)
     for (std::size_t k = 0; k < in.sources.size(); ++k)
       record_.sources[in.sources[k]].count += added * in.spheres * in.shares[k];
   });
+  bool closes = false;
+  each_fix([&](lmp::Fix& fix) {
+    auto* mesh = dynamic_cast<lmp::FixMeshSurface*>(&fix);
+    closes |= begins(fix.style, "deform") || (mesh && (is_moved(lmp_, *mesh) || mesh->get_module("servo")));
+  });
+  if (closes && cleared_ == 0) record_.solid_volume = std::max(record_.solid_volume, filled());
   // what fixes changed while it ran
   const lmp::Atom& a = *lmp_->atom;
   for (int i = 0; a.radius && a.rmass && i < a.nlocal; ++i) {

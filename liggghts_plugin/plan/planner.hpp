@@ -86,6 +86,8 @@ class Planner
   void find_forces();
   void find_atoms();
   void find_insertions();
+  /// Volume of the spheres over that of the box whose sides are plane walls, a cylinder or periodic; 0: it is none.
+  double filled() const;
   void record_without_run();
   Insertion& insertion_of(LAMMPS_NS::FixInsert& fix);
   void look_at_meshes(bool moving);

@@ -82,6 +82,10 @@ struct Scene
   double time_step = 0;                     ///< s, the last one
   std::string model, law_file;              ///< words of pair_style gran: model, law
   std::vector<std::string> material_names;  ///< and materials
+  std::string confinement;                  ///< and confinement; empty: off
+  /// Largest at the end of a run in which walls or sides of the box come closer: volume of the spheres over that of the closed
+  /// box; 0: not known, or nothing presses.
+  double solid_volume = 0;
   double stretch = 1;                       ///< and stretch: the time step is this much longer
   std::optional<double> restart_stretch;    ///< of the contacts in the restart file that the deck reads
   double yield_pressure = customary_yield_pressure;  ///< of model thornton, over the yield stress

@@ -38,7 +38,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Wall, where, id, type, box, speed, drag_speed
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Run, where, steps, time_step, particles, integrates)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DeckCommand, file, line, words)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Scene, units, gravity, domain, periodic, dimension, types, materials, sources, walls, runs, time_step,
-                                   model, law_file, material_names, stretch, restart_stretch, yield_pressure, friction, restitution,
+                                   model, law_file, material_names, confinement, solid_volume, stretch, restart_stretch, yield_pressure, friction, restitution,
                                    left_loop, stopped_at, notes, unknown_particles, unknown_speeds, commands, files_read, files_written)
 
 }  // namespace deck

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -129,7 +130,7 @@ void note_unbounded(Plan& plan, const Scene& scene, const AtomTypes& types, cons
   std::vector<std::string> moving;
   for (const Wall* w : speeds.walls())
     if (w->push_speed > 0) moving.push_back(fmt::format("'{}' ({})", w->id, w->where));
-  if (!moving.empty())
+  if (!moving.empty() && !plan.pressing.needs_confinement())
     plan.not_bounded.push_back(fmt::format("overlaps where {} {} particles against others or a wall", fmt::join(moving, ", "), moving.size() == 1 ? "presses" : "press"));
   for (std::size_t k = 0; k < 3; ++k)
     if (scene.periodic[k] && std::abs(speeds.upward()[k]) > 1e-3)
@@ -196,12 +197,39 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
   add_particle_pairs(encounters, scene, types, strikes);
   add_wall_pairs(encounters, types, walls, speeds, strikes);
   for (const Encounter& e : encounters) plan.pairs.push_back(plan_pair(e, options, scene.stretch, visited));
+  plan.pressing = pressing_to(scene.solid_volume);
+  if (plan.pressing.needs_confinement() && !visited)  // a press goes to the end of any law
+    for (PairPlan& p : plan.pairs)
+      if (p.meeting.known_yield && p.meeting.yields.yields()) p.needs_table = true, p.depth = deepest_law;
   plan.law_pairs = pairs_of_law(types, walls);
   set_axes(plan);
   if (!visited) note_unbounded(plan, scene, types, speeds, strikes);
   set_time_step(plan, scene.stretch);
   set_cost(plan, scene, options);
   return plan;
+}
+
+Pressing pressing_to(double solid_volume)
+{
+  // 30 spheres, E*/Y = 100, friction 0.3, resolved (docs/evidence/packings.md): stress over Y
+  constexpr std::array<std::array<double, 2>, 9> measured{
+      {{0.58, 0}, {0.63, 0.08}, {0.68, 0.18}, {0.73, 0.29}, {0.78, 0.41}, {0.83, 0.55}, {0.88, 0.73}, {0.93, 1.0}, {0.98, 1.46}}};
+  Pressing found{.solid_volume = solid_volume, .overlap = std::max(0.0, 1 - std::cbrt(measured[0][0] / std::max(solid_volume, 1e-9))), .pressure = 0};
+  for (std::size_t k = 1; k < measured.size() && solid_volume > measured[k - 1][0]; ++k) {
+    const auto [density, stress] = measured[k];
+    const auto [before, less] = measured[k - 1];
+    found.pressure = k + 1 < measured.size() && solid_volume > density ? stress : less + (stress - less) * (solid_volume - before) / (density - before);
+  }
+  return found;
+}
+
+std::string pressing_text(const Pressing& pressing, const std::string& confinement)
+{
+  if (!(pressing.solid_volume > 0)) return {};
+  if (!pressing.needs_confinement()) return fmt::format("to a solid volume of {:.2f}: laws of one contact hold up to 0.60", pressing.solid_volume);
+  return fmt::format("to a solid volume of {:.2f} (overlaps of about {:.2f} R, mean pressure of about {:.2g} Y), and laws of one contact end at 0.60: {}",
+      pressing.solid_volume, pressing.overlap, pressing.pressure,
+      confinement.empty() ? "say 'confinement auto', up to 4 times Hertz's loop (docs/guide/pressing.md)" : fmt::format("the deck says 'confinement {}'", confinement));
 }
 
 const PairPlan* Plan::stiffest() const

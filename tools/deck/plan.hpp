@@ -11,6 +11,20 @@
 
 namespace granulaw::deck {
 
+/// A bed that walls or sides of the box press.
+struct Pressing
+{
+  double solid_volume = 0;  ///< of the spheres, over the box at its smallest; 0: not known, or nothing presses
+  double overlap = 0;       ///< of each sphere over its radius, about
+  double pressure = 0;      ///< over the yield stress, about
+  /// Laws of one contact end (docs/guide/pressing.md).
+  bool needs_confinement() const { return solid_volume > 0.6; }
+};
+Pressing pressing_to(double solid_volume);
+
+/// One sentence about it; empty: nothing presses, or it is not known how far. `confinement`: as the deck says it; empty: off.
+std::string pressing_text(const Pressing& pressing, const std::string& confinement);
+
 struct Plan
 {
   std::vector<PairPlan> pairs;
@@ -27,6 +41,7 @@ struct Plan
   double depth = 0, damage_number = 0;   ///< that the table needs, margins included; 0: no table
   bool axis_matters = false;             ///< the velocity axis
   std::vector<std::string> not_bounded;  ///< what of the scene no energy bounds
+  Pressing pressing;
   bool complete() const { return questions.empty(); }
 };
 

@@ -201,6 +201,8 @@ deck::Converted convert(ConvertRequest& r)
   deck::require_shared_files(c.destination);
   for (const deck::OtherDensity& other : deck::other_densities(scene, c.planned.options))
     c.result.left.push_back(fmt::format("atom type {} ('{}'): {}", other.type, other.name, other.sentence()));
+  if (c.planned.plan.pressing.needs_confinement() && scene.confinement.empty())
+    c.result.left.push_back("the deck presses its bed " + deck::pressing_text(c.planned.plan.pressing, ""));
   for (const std::string& sentence : deck::beyond_laws(c.planned.plan)) c.result.left.push_back(sentence);
   write_law_of(c, file);
   compare_runs(c, now);

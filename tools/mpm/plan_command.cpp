@@ -190,6 +190,8 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command, const Att
   root["time_step_s"] = {{"deck", json_number(d.scene.time_step)}, {"advised", json_number(plan.time_step)}};
   root["cost"] = cost_json(d);
   root["law_pairs"] = plan.law_pairs;
+  root["pressing"] = plan.pressing.solid_volume > 0 ? ordered_json{{"solid_volume", plan.pressing.solid_volume}, {"overlap_over_radius", plan.pressing.overlap},
+      {"pressure_over_yield_stress", plan.pressing.pressure}, {"needs_confinement", plan.pressing.needs_confinement()}, {"confinement", d.scene.confinement.empty() ? "off" : d.scene.confinement}} : ordered_json();
   root["beyond_laws"] = deck::beyond_laws(plan);
   root["not_bounded"] = plan.not_bounded;
   root["table_command"] = command.empty() ? ordered_json(nullptr) : ordered_json(printable(command));
@@ -300,6 +302,7 @@ void print_needs(const PlannedDeck& d)
 /// Deck lines that the plan could not follow, its questions, and the command that makes the law.
 void print_next(const PlannedDeck& d, const std::string& command)
 {
+  if (const std::string pressed = deck::pressing_text(d.plan.pressing, d.scene.confinement); !pressed.empty()) fmt::print("pressed: {}\n", pressed);
   for (const std::string& sentence : deck::beyond_laws(d.plan)) fmt::print("beyond all laws: {}\n", printable(sentence));
   for (const std::string& what : d.plan.not_bounded) fmt::print("not bounded: {}\n", printable(what));
   for (const std::string& note : d.scene.notes) fmt::print("not followed: {}\n", note);
