@@ -405,6 +405,25 @@ run 1
         planned = json.loads(self.mpm("plan", "in.deck", "--json", "--speed", "1").stdout)
         assert planned["fall_m"] == approx(0.298) and "'plate'" in planned["not_bounded"][0]
 
+    def test_presses_know_their_solid_volume(self):
+        """810 spheres of 2 mm below a lid that ends 30 mm above the floor; 1000 in a periodic box that shrinks from 40 to 35 mm; in both by their volume."""
+        ball = 4 / 3 * math.pi * 0.002**3
+        sides = "".join(f"fix {a}{k} all wall/gran model hertz tangential history primitive type 2 {a}plane {v}\n" for a in "xy" for k, v in enumerate((-0.02, 0.02)))
+        lid = ("fix lid all mesh/surface/stress file lid.stl type 2\nfix top all wall/gran model hertz tangential history mesh n_meshes 1 meshes lid\n"
+               "fix down all move/mesh mesh lid linear 0 0 -1\n")
+        (self.folder / "lid.stl").write_text(two_triangles(0.02, 0.05))
+        grain = "set group all diameter 0.004 density 1000\n"
+        die = BOX.replace("-0.1 0.1 -0.1 0.1 0 0.5", "-0.02 0.02 -0.02 0.02 0 0.1") + "lattice sc 0.004\nregion r block -0.018 0.018 -0.018 0.018 0.002 0.04 units box\n" + sides + FLOOR
+        periodic = BOX.replace("boundary f f f", "boundary p p p").replace("-0.1 0.1 -0.1 0.1 0 0.5", "0 0.04 0 0.04 0 0.04").replace("fix g all gravity 9.81 vector 0 0 -2\n", "")
+        shrinks = "lattice sc 0.004\ncreate_atoms 1 box\n" + grain + "fix d all deform 1 x vel -0.1 y vel -0.1 z vel -0.1 remap x units box\nrun 5000\n"
+        for text, volume, needed in ((die + lid + "create_atoms 1 region r\n" + grain + "run 2000\n", 810 * ball / (0.04**2 * 0.03), False),
+                                     (die + "create_atoms 1 region r\n" + grain + "run 2000\n", 0, False), (periodic + shrinks, 1000 * ball / 0.035**3, True)):
+            assert self.scene(text)["solid_volume"] == approx(volume, rel=1e-9)
+            pressing = json.loads(self.mpm("plan", "in.deck", "--json", "--speed", "1", code=...).stdout)["pressing"]
+            said = self.mpm("plan", "in.deck", "--speed", "1", code=...).stdout
+            assert (pressing is None) == (volume == 0) == ("pressed:" not in said) and (not pressing or pressing["needs_confinement"] == needed)
+            assert ("say 'confinement auto'" in said) == needed
+
     def test_a_long_way_takes_few_runs(self):
         (self.folder / "plate.stl").write_text(two_triangles(0.05, 0.49))
         scene = self.scene(BOX + FLOOR + ONE + "fix plate all mesh/surface/stress file plate.stl type 2\nfix top all wall/gran model hertz tangential history mesh n_meshes 1 meshes plate\n"
