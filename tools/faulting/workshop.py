@@ -31,7 +31,7 @@ REACH = {
     "mpm_core/law": (("unit", "cli"), ("liggghts", "rest")),
     "mpm_core/characterise": (("unit", "cli"), ("rest",)),
     "liggghts_plugin": (("liggghts",), ("unit", "rest")),
-    "tools/deck": (("unit", "cli"), ("rest",)),
+    "tools/deck": (("unit", "cli"), ("liggghts", "rest")),
     "tools/mpm": (("cli", "unit"), ("liggghts", "rest")),
 }
 # Libraries that the unit test of one file of a folder needs at most.

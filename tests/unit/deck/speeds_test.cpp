@@ -24,4 +24,15 @@ TEST(DeckSpeeds, BoundsSpeedsByTheFall)
   EXPECT_TRUE(table_command(plan, "m.toml").empty());
 }
 
+TEST(DeckSpeeds, TheHighestSourceOfATypeCounts)
+{
+  Scene scene = falling();
+  const double speed = make_plan(scene, {}).pairs[1].speed;
+  Source& low = scene.sources.emplace_back(scene.sources[0]);
+  low.centres.high[2] = 0.15, low.speed = 0.1;
+  EXPECT_EQ(make_plan(scene, {}).pairs[1].speed, speed);
+  std::swap(scene.sources[0], scene.sources[1]);
+  EXPECT_EQ(make_plan(scene, {}).pairs[1].speed, speed);
+}
+
 }  // namespace granulaw::deck::speeds_test
