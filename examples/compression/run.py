@@ -133,9 +133,10 @@ def main(argv=None):
         grid, line = np.linspace(0.55, min(c["fraction"][-1] for c in runs), 200), "--" if m == CONFINED else "-"
         pictures.band(axes[0], grid, [np.interp(grid, c["fraction"], c["stress"]) / 1e6 for c in runs], m, line=line)
         pictures.band(axes[1], grid, [np.interp(grid, c["fraction"], c["overlap"]) for c in runs], m, line=line)
-    axes[1].axhline(OVERLAP, color="tab:red", lw=0.8)
+    axes[1].axhline(OVERLAP, color="black", lw=0.8, ls=":")
+    axes[1].text(0.85, OVERLAP, "laws of one contact end here", ha="right", va="bottom", fontsize=9)
     axes[0].set(xlabel="volume of spheres / volume of die", ylabel="stress on the lid, MPa")
-    axes[1].set(xlabel="volume of spheres / volume of die", ylabel="largest flattening / R")
+    axes[1].set(xlabel="volume of spheres / volume of die", ylabel="largest overlap of a sphere / R")
     axes[0].legend()
     pictures.save(figure, out / "compression.png")
     draw_packing(press_packing(args, out, deep), out)
