@@ -48,6 +48,8 @@ class Run:
         planned, checked = example("planned.py"), 0
         for folder in sorted(f for f in self.folder.glob(f"*{self.first_seed}") if (f / "stats.json").exists()):
             deck, words = planned.words_of(folder)
+            if any("confinement on" in str(word) for word in words):
+                continue  # of no law of one contact: its contacts have no overlap that a table ends at
             steps.check(sweep.program("mpm"), [deck, *words], json.loads((folder / "stats.json").read_text()),
                         (folder / "screen").read_text(errors="replace"))
             checked += 1
