@@ -1,4 +1,6 @@
 // What of a particle moves: between ranks, to ghosts, into restart files.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "liggghts_plugin/confine/fix_confined.hpp"
@@ -89,6 +91,9 @@ void FixConfined::unpack_restart(int i, int nth)
 {
   const double* record = atom->extra[i];
   for (int k = 0; k < nth; ++k) record += static_cast<int>(*record);
+  if (record[0] != 1 + head_numbers + side_numbers * record[1])
+    stop_one(lmp, fmt::format("read_restart: a particle under 'confinement' has {:.0f} numbers, and this plug-in keeps {:.0f} of one with {:.0f} contacts: another version wrote the file",
+                                  record[0], 1 + head_numbers + side_numbers * record[1], record[1]));
   unpack(i, record + 1);
 }
 
