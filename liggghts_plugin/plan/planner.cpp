@@ -65,7 +65,7 @@ namespace lmp = LAMMPS_NS;
 
 Planner* planner = nullptr;
 
-using deck::ball_volume, deck::dot, deck::norm, deck::operator-;
+using deck::ball_volume, deck::dot, deck::norm;
 
 /// Part of a motion that may go against gravity where the deck rounds its numbers.
 constexpr double level = 1e-3;
@@ -576,9 +576,9 @@ double Planner::filled() const
     }
     for (int m = 0; m < gran->n_meshes(); ++m) {
       const Box box = look_at(*gran->mesh_list()[m]).box;
-      const double size = norm(box.high - box.low);
+      const auto width = [&](std::size_t k) { return box.high[k] - box.low[k]; };
       for (std::size_t k = 0; k < 3; ++k)
-        if (box.high[k] - box.low[k] < 1e-6 * size) planes[k].insert(box.low[k]);
+        if (width(k) < 1e-6 * std::max({width(0), width(1), width(2)})) planes[k].insert(box.low[k]);
     }
   });
   for (std::size_t k = 0; k < 3; ++k) {
