@@ -1,7 +1,6 @@
 #include "granulaw_words.hpp"
 
 #include <algorithm>
-
 #include <cstring>
 #include <fstream>
 #include <iterator>

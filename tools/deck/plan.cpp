@@ -215,11 +215,11 @@ Pressing pressing_to(double solid_volume)
   constexpr std::array<std::array<double, 2>, 9> measured{
       {{0.58, 0}, {0.63, 0.08}, {0.68, 0.18}, {0.73, 0.29}, {0.78, 0.41}, {0.83, 0.55}, {0.88, 0.73}, {0.93, 1.0}, {0.98, 1.46}}};
   Pressing found{.solid_volume = solid_volume, .overlap = std::max(0.0, 1 - std::cbrt(measured[0][0] / std::max(solid_volume, 1e-9))), .pressure = 0};
-  for (std::size_t k = 1; k < measured.size() && solid_volume > measured[k - 1][0]; ++k) {
-    const auto [density, stress] = measured[k];
-    const auto [before, less] = measured[k - 1];
-    found.pressure = k + 1 < measured.size() && solid_volume > density ? stress : less + (stress - less) * (solid_volume - before) / (density - before);
-  }
+  std::size_t k = 1;
+  while (k + 1 < measured.size() && solid_volume > measured[k][0]) ++k;  // the last piece goes on
+  const auto [density, stress] = measured[k];
+  const auto [before, less] = measured[k - 1];
+  found.pressure = std::max(0.0, less + (stress - less) * (solid_volume - before) / (density - before));
   return found;
 }
 

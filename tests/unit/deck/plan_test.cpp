@@ -76,4 +76,15 @@ TEST(DeckPlan, WallsOfATypeAreOneBody)
   EXPECT_NEAR(plan.pairs[1].speed, std::sqrt(0.5 * 0.5 + 2 * 9.81 * (0.3 - 0.002)), 1e-12);
 }
 
+/// The stress of 30 resolved spheres (docs/evidence/packings.md), linear between; the last piece goes on.
+TEST(DeckPlan, APressHasThePressureOfAResolvedBed)
+{
+  EXPECT_EQ(pressing_to(0.5).pressure, 0);
+  EXPECT_NEAR(pressing_to(0.705).pressure, 0.235, 1e-12);
+  EXPECT_NEAR(pressing_to(1.0).pressure, 1.644, 1e-12);
+  EXPECT_NEAR(pressing_to(0.78).overlap, 1 - std::cbrt(0.58 / 0.78), 1e-12);
+  EXPECT_FALSE(pressing_to(0.6).needs_confinement());
+  EXPECT_TRUE(pressing_to(0.61).needs_confinement());
+}
+
 }  // namespace granulaw::deck::plan_test
