@@ -60,7 +60,7 @@ def refused(words, *wanted, code=None):
     after = {p.name: p.stat().st_mtime_ns for p in Path().iterdir()}
     assert run.code == (code or (2 if run.err.startswith(("mpm: --", "mpm: -o: ")) else 1)), f"{words}: exit {run.code}, {run.err}"
     lines = run.err.strip().splitlines()
-    assert len(lines) == 1 and lines[0].startswith("mpm: "), f"{words}: not one sentence: {run.err}"
+    assert len(lines) == 1 and lines[0].startswith("mpm: ") and not lines[0].startswith("mpm: mpm"), f"{words}: not one sentence: {run.err}"
     for part in wanted:
         assert part in run.err, f"{words}: '{part}' not in: {run.err}"
     assert before == after, f"{words}: files changed: {before} -> {after}"

@@ -492,7 +492,7 @@ run 1
         shutil.copy(MPM, alone)
         monkeypatch.delenv("GRANULAW_LAUNCHER")
         done = run(alone, "plan", "in.deck", cwd=self.folder, code=1)
-        assert "liggghts-mpm is not beside this program" in done.stderr
+        assert done.stderr.startswith("mpm: LIGGGHTS reads the deck, and liggghts-mpm is not beside this program")
 
 
 class TestUnits(Planned):

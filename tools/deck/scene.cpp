@@ -141,7 +141,7 @@ std::string launcher()
 {
   if (const char* chosen = std::getenv("GRANULAW_LAUNCHER"); chosen && *chosen) return std::filesystem::absolute(chosen).string();
   if (const std::string own = own_file("liggghts-mpm"); !own.empty()) return own;
-  fail("mpm", "LIGGGHTS reads the deck, and liggghts-mpm is not beside this program (set GRANULAW_LAUNCHER to its path)");
+  fail("", "LIGGGHTS reads the deck, and liggghts-mpm is not beside this program (set GRANULAW_LAUNCHER to its path)");
 }
 
 /// Words and file of a process.
@@ -155,7 +155,7 @@ struct Output
 /// liggghts-mpm with an option that takes a path as its last value.
 Output start_launcher(const std::string& folder, const std::vector<std::string>& option, const std::vector<std::string>& words)
 {
-  const int file = memory_file("mpm");
+  const int file = memory_file("the plan");
   Process process{.words = {launcher()}, .folder = folder};
   process.words.insert(process.words.end(), option.begin(), option.end());
   process.words.push_back(fmt::format("/dev/fd/{}", file));

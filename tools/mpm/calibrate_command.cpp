@@ -145,7 +145,7 @@ void fit_adhesion_alone(const CalibrateRequest& r)
     fail("--fit", fmt::format("'{}' needs --youngs-modulus, --yield-stress and --radius", adhesion_name));
   const std::vector<PullOff> data = read_pull_offs(o.data.front());
   const std::optional<Atlas> atlas = own_atlas();
-  if (!atlas) fail("mpm calibrate", "the atlas is not beside the program (docs/evidence/atlas.md)");
+  if (!atlas) fail("calibrate", "the atlas is not beside the program (docs/evidence/atlas.md)");
   const LawMaterial material{o.name, o.density.value_or(1000), *o.youngs_modulus, o.poisson_ratio, *o.yield_stress, o.hardening_modulus.value_or(0)};
   const BodyLaw body = law_from(*atlas, material, {.depth = 0.3});
   const bool equal = o.partner != "wall";
@@ -169,7 +169,7 @@ void run(const CalibrateRequest& r)
   r.farm.check();
   CalibrationRequest request = r.options.request();
   const std::optional<Atlas> atlas = own_atlas();
-  if (!atlas) fail("mpm calibrate", "the atlas is not beside the program (docs/evidence/atlas.md)");
+  if (!atlas) fail("calibrate", "the atlas is not beside the program (docs/evidence/atlas.md)");
   set_cycles_aside(*atlas, request);
   CalibrationProblem problem(*atlas, request);
   nlohmann::ordered_json runs;
@@ -183,7 +183,7 @@ void run(const CalibrateRequest& r)
     if (p.identifiable() && p.parameter <= Parameter::yield_stress) check_plausible("the fit", name_of(p.parameter), name_of(p.parameter), p.profile.value);
   if (!r.output.empty()) write_text_atomically(r.output, material_toml(result.material, "# " + command_line + "\n" + interval_comments(problem, result)));
   if (r.ensemble > 0) write_ensemble(r, problem, result);
-  if (!r.plot.empty()) draw_by_python("mpm calibrate", "plot_fit.py", {r.plot}, json.dump(), r.plot);
+  if (!r.plot.empty()) draw_by_python("calibrate", "plot_fit.py", {r.plot}, json.dump(), r.plot);
   if (r.json) return print_json(json);
   print_calibration(problem, result);
   if (flow)

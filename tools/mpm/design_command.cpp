@@ -48,7 +48,7 @@ CandidateMaterial assumed_material(const DesignRequest& r, const CalibrationRequ
     if (request.measurements.empty()) fail("--guess", "is missing: without data the design needs a material to go by, such as yield_stress=50e6");
     const Calibration c = calibrate(CalibrationProblem(atlas, request));
     if (!c.has_values())
-      fail("mpm design",
+      fail("design",
           (c.bound.empty() ? "no parameters follow DATA" : "the fit of DATA lies at an end of the method's range, " + c.bound) + ": give a --guess without these data");
     return c.material;
   }
@@ -175,9 +175,9 @@ void run(const DesignRequest& r)
 {
   const CalibrationRequest request = r.options.request();
   if (!r.speeds.empty() && !r.options.density) fail("--density", "is missing: impacts depend on it");
-  if (r.speeds.empty() && r.displacements.empty() && r.measure.empty()) fail("mpm design", "nothing to choose from: give --speeds, --displacements or --measure");
+  if (r.speeds.empty() && r.displacements.empty() && r.measure.empty()) fail("design", "nothing to choose from: give --speeds, --displacements or --measure");
   const std::optional<Atlas> atlas = own_atlas();
-  if (!atlas) fail("mpm design", "the atlas is not beside the program (docs/evidence/atlas.md)");
+  if (!atlas) fail("design", "the atlas is not beside the program (docs/evidence/atlas.md)");
   const CandidateMaterial assumed = assumed_material(r, request, *atlas);
   const Design design(*atlas, request, assumed, candidates_of(r, assumed), r.options.relative_sd);
   const std::vector<std::size_t> plan = design.best(static_cast<std::size_t>(r.count));

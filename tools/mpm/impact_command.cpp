@@ -66,7 +66,7 @@ void check_velocity(double velocity, double wave_speed)
   if (velocity < slowest * wave_speed)
     fail("--velocity", "is too slow to be resolved (Hertz's law holds there)", fmt::format("{:g} m/s", velocity),
         fmt::format("{:g} times the wave speed sqrt(E*/rho) or more, {:.4g} m/s", slowest, slowest * wave_speed));
-  check_plausible("mpm impact", "velocity", "--velocity", velocity);
+  check_plausible("impact", "velocity", "--velocity", velocity);
 }
 
 /// Damage number of the body that yields first; 0: neither does.

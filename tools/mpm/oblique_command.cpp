@@ -76,7 +76,7 @@ void oblique(const ObliqueRequest& r)
   if (r.tangential == "solver")
     rows.push_back(by_solver(r, particle, thrown));
   else {
-    const SphereLaw of = sphere_law(r.materials, r.particle, r.law, "mpm oblique", "--tangential solver");
+    const SphereLaw of = sphere_law(r.materials, r.particle, r.law, "oblique", "--tangential solver");
     const PairLaw pair = of.wall();
     if (const std::string why = unknown_flow_stress(of.law, pair); r.tangential == "plastic" && !why.empty()) fail(of.source, why);
     rows.push_back(by_law(r, pair, thrown, r.tangential == "history" ? TangentialKind::history : TangentialKind::plastic));

@@ -46,7 +46,7 @@ void draw(const LawCurves& curves, const Axes& axes, const std::string& output)
   nlohmann::ordered_json told{{"title", curves.title}, {"overlap_unit", axes.overlap}, {"labels", {axes.overlap_text, axes.force_text, axes.speed_text}}};
   for (const ForceLine& line : curves.force) told["force"].push_back(as_json(line));
   for (const DrawnLine& line : curves.restitution) told["restitution"].push_back(as_json(line));
-  draw_by_python("mpm plot", "plot_law.py", {output}, told.dump(), output);
+  draw_by_python("plot", "plot_law.py", {output}, told.dump(), output);
   fmt::print("wrote {}\n", output);
 }
 
@@ -57,7 +57,7 @@ void draw_certificate(const Law& law, const Request& r)
     if (body.shape) shapes.push_back(name);
   const auto found = law.bodies.find(r.shape);
   if (found == law.bodies.end() || !found->second.shape) fail_unknown("--shape", "no body with a certificate over orientations", r.shape, shapes);
-  draw_shape("mpm plot", r.shape, *found->second.shape, r.output);
+  draw_shape("plot", r.shape, *found->second.shape, r.output);
 }
 
 void plot(const Request& r)

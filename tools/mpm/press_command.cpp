@@ -85,7 +85,7 @@ void press_by_planes(const PressRequest& r, const Particle& particle, RunIdentit
 void press_by_law(PressRequest& r, const Meeting& m)
 {
   check_by_law(r);
-  const SphereLaw law = sphere_law(r.run.materials, r.run.particle, r.law, "mpm press", "--by solver");
+  const SphereLaw law = sphere_law(r.run.materials, r.run.particle, r.law, "press", "--by solver");
   const PairLaw wall = law.wall();
   const double error = wall.yielding->bound.confined_force;
   if (!r.run.json)

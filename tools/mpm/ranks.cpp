@@ -51,14 +51,14 @@ void join_ranks(const std::string& command, bool shares_runs)
 {
   if (ranks() == 1) return;
   if (!shares_runs)
-    fail(fmt::format("mpm {}", command), "runs in one process: start it without mpirun (mpm table shares its runs among ranks)", fmt::format("{} processes", ranks()),
+    fail(command, "runs in one process: start it without mpirun (mpm table shares its runs among ranks)", fmt::format("{} processes", ranks()),
         "1");
 #ifdef GRANULAW_HAS_MPI
   session.emplace();
   if (session->rank() != 0) ask_nothing_of_units();
   if (session->rank() != 0 && !std::freopen("/dev/null", "w", stdout)) fail("/dev/null", "cannot be opened");
 #else
-  fail(fmt::format("mpm {}", command), "this program is built without MPI: start it without mpirun (--jobs sets the number of threads)",
+  fail(command, "this program is built without MPI: start it without mpirun (--jobs sets the number of threads)",
       fmt::format("{} processes", ranks()), "1");
 #endif
 }

@@ -111,7 +111,7 @@ void certify(ShapeRequest& r)
     certificate = certify_shape(particle, law, r.question, *farm, [&](double done, const std::string& what) { bar.update(done, what); });
   }
   if (!r.output.empty()) write_map(certificate, r.output);
-  if (!r.picture.empty()) draw_shape("mpm shape", r.particle, certificate, r.picture);
+  if (!r.picture.empty()) draw_shape("shape", r.particle, certificate, r.picture);
   if (r.json) return print_json_of(certificate, farm->count());
   print_directions(certificate);
   print_shape(r.particle, certificate);

@@ -24,7 +24,7 @@ std::vector<RunOutcome> BuildRuns::make_needed(const std::vector<RunJob>& jobs, 
 {
   std::vector<RunOutcome> outcomes = make(jobs, until);
   for (const RunOutcome& outcome : outcomes)
-    if (outcome.failed()) fail("mpm table", what + " fails: " + outcome.error);
+    if (outcome.failed()) fail("", what + " fails: " + outcome.error);
   return outcomes;
 }
 
