@@ -14,6 +14,7 @@
 #include "liggghts_plugin/contact/normal_physics.hpp"
 #include "liggghts_plugin/contact/pair_table.hpp"
 #include "liggghts_plugin/contact/superquadric.hpp"
+#include "liggghts_plugin/deck/keywords.hpp"
 #include "liggghts_plugin/deck/loaded_law.hpp"
 #include "liggghts_plugin/deck/session.hpp"
 #include "liggghts_plugin/engine/liggghts.hpp"
@@ -554,10 +555,10 @@ class ElementHost : public ContactInquiry
     const double speed = approach(sidata);
     entry.counts->overlap_max = std::max(entry.counts->overlap_max, sidata.deltan / r_eff);
     stop_one(lmp_, fmt::format("{}: overlap/R* {:.4g} of types {} and {} {} {:.4g} m/s is more than 5 % beyond "
-                              "the law's table, which ends at {:.4g}{}, or say 'beyondRange crush', or 'confinement on' for a pressed bed",
+                              "the law's table, which ends at {:.4g}{}, or say 'beyondRange crush', or {}",
                               setup_->where, sidata.deltan / r_eff, sidata.itype, sidata.jtype,
                               speed < 0 ? "parting at" : "at", std::abs(speed), entry.largest_overlap,
-                              remedy(entry, sidata.deltan / r_eff)));
+                              remedy(entry, sidata.deltan / r_eff), for_pressed_beds));
   }
 
   /// " (what was planned): what holds this overlap".

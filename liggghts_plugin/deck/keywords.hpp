@@ -42,6 +42,9 @@ inline constexpr std::array shared_keywords{
 /// For models whose law ends at a largest overlap: put it among the model's own keywords.
 inline constexpr Keyword beyond_range{.name = "beyondRange", .words = {"stop", "continue", "crush"}};
 
+/// Remedy that messages name where several contacts of a particle act on each other.
+inline constexpr std::string_view for_pressed_beds = "'confinement auto' for pressed beds";
+
 /// Keywords that LIGGGHTS itself reads behind the models, each followed by on or off.
 inline constexpr std::array liggghts_keywords{
     Keyword{.name = "tangential_damping"},

@@ -50,7 +50,7 @@ class TestCrush(Deck):
 
     def test_a_stop_names_it(self):
         text = self.run_deck(wall_deck("mpm", self.words("beyondRange stop"), POWDER, RADIUS, SPEED, STEP), expect_failure=True)
-        assert "or say 'beyondRange crush'" in text
+        assert "or say 'beyondRange crush', or 'confinement auto' for pressed beds" in text
 
     def test_less_than_the_table_is_the_law_to_the_bit(self):
         (plain,), (crush,) = self.run_each((wall_deck("mpm", self.words(more), POWDER, RADIUS, 1.0, STEP) for more in ("", "beyondRange crush")), "SPEED")
