@@ -15,7 +15,7 @@ namespace granulaw {
 namespace {
 
 constexpr int points = 200, speeds = 40;
-constexpr int steps_per_contact = 2000;  // e within 1e-5 of that at ten times as many: no line is as thin
+constexpr int steps_of_collision = 2000;  // e within 1e-5 of that at ten times as many: no line is as thin
 
 /// A law that is drawn, and how.
 struct Drawn
@@ -114,7 +114,7 @@ Speeds speeds_of(const ChosenPair& pair, std::optional<double> asked)
 
 Replay collision(const PairLaw& law, const ChosenPair& pair, double velocity)
 {
-  return replay_collision(law, pair.r_eff, pair.m_eff, velocity, steps_per_contact);
+  return replay_collision(law, pair.r_eff, pair.m_eff, velocity, steps_of_collision);
 }
 
 /// Force over overlaps from 0 to `end`, of what has been pressed to `reached`; no part without force but the
