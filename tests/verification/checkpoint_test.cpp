@@ -145,7 +145,7 @@ std::vector<Job> jobs()
 {
   Particle other = reference::unit_sphere(60);
   other.radius = 1.3;
-  const Partner particle{other, {}}, wall{{}, soft().materials[0]};
+  const Partner particle{other, {}}, wall{{}, soft().materials[0]}, sticky{other, {}, {1e-3, 0.1}};
   std::vector<Job> all{
       {"mapped", impact(soft()), small(GridKind::mapped)},
       {"rectilinear", impact(soft()), small(GridKind::rectilinear)},
@@ -154,6 +154,7 @@ std::vector<Job> jobs()
       {"rate_dependent", impact(rate_dependent()), small(GridKind::mapped)},
       {"two_mapped", impact(soft(), particle), small(GridKind::mapped)},
       {"two_rectilinear", impact(soft(), particle), small(GridKind::rectilinear)},
+      {"two_sticky", impact(soft(), sticky), small(GridKind::mapped)},
       {"wall", impact(soft(), wall), small(GridKind::mapped)},
       {"press_free", press(Support::free), small(GridKind::mapped)},
       {"press_two", press(Support::free, particle), small(GridKind::mapped)},

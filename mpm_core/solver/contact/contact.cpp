@@ -46,10 +46,17 @@ const RowKernels& row_kernels(bool three_dimensions)
 void Contact::visit_state(StateArchive& a)
 {
   a.value(dissipated_);
+  if (pull_) pull_->visit_state(a);
+}
+
+void Pull::visit_state(StateArchive& a)
+{
+  a.value(taken_);
 }
 
 double RowContact::correct(std::span<Body> bodies, double kick, double dt)
 {
+  const double pulled = pull(bodies, kick);
   nodes_.clear();
   for (Body& body : bodies) {
     check_pores(body);
@@ -62,11 +69,12 @@ double RowContact::correct(std::span<Body> bodies, double kick, double dt)
   for (int n = 0; n < rule_.most && kernels.sweep(nodes_.data(), rows_.data(), count_) > rule_.small_change;
        ++n) {
   }
-  return side_->finish(bodies, rows(), dt);
+  return pulled + side_->finish(bodies, rows(), dt);
 }
 
 void RowContact::account(std::span<const Body> bodies)
 {
+  Contact::account(bodies);
   const RowKernels& kernels = row_kernels(bodies.front());
   for (const ContactRow& row : rows()) {
     const Vector3 p = vector_in(row.impulse);

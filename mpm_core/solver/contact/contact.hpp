@@ -18,24 +18,45 @@ inline Vector3 vector_in(const double* four)
   return {four[0], four[1], four[2]};
 }
 
+/// Attraction between the surfaces of a contact.
+class Pull
+{
+ public:
+  virtual ~Pull() = default;
+  /// Adds the attraction to the nodes' forces, and what it adds over `kick` to their velocities; returns the impulse on the first body.
+  virtual double pull(std::span<Body> bodies, double kick) = 0;
+  /// To be called when all velocities of the step are final.
+  virtual void account(std::span<const Body> bodies) = 0;
+  /// Energy taken so far: the work to part the surfaces less what they gave back.
+  double taken() const { return taken_; }
+  virtual void visit_state(StateArchive& archive);
+
+ protected:
+  double taken_ = 0;
+};
+
 /// Contact of bodies with each other or with planes: impulses that keep them from passing through. No
-/// stiffness, no gap parameter; the force can only push.
+/// stiffness, no gap parameter; the force can only push, but for the attraction of surfaces that have one.
 class Contact
 {
  public:
+  explicit Contact(std::unique_ptr<Pull> pull = nullptr) : pull_(std::move(pull)) {}
   virtual ~Contact() = default;
   /// Corrects velocities for a step `dt`, after the nodes were accelerated over `kick`; returns the impulse
   /// on the first body (+z; of planes: of the first plane).
   virtual double correct(std::span<Body> bodies, double kick, double dt) = 0;
   /// To be called when all velocities of the step are final: adds what this contact took from the bodies.
-  virtual void account(std::span<const Body> bodies) = 0;
+  virtual void account(std::span<const Body> bodies)
+  {
+    if (pull_) pull_->account(bodies);
+  }
   /// Energy lost so far: -sum p (v_before + v_after)/2 over all impulses p; v: velocity of separation. It
   /// goes with the scheme's own energy balance. Where a gap closes, m v^2/2 of its nodes is lost: the grid's
   /// own loss, proportional to the cell size (3e-3 of the impact energy at V/V_y = 500 with 16 cells, 1e-2 at
   /// 1500).
   double dissipated() const { return dissipated_; }
   /// Energy that attraction between the surfaces has taken: the work to part them less what they gave back.
-  virtual double attracted() const { return 0; }
+  double attracted() const { return pull_ ? pull_->taken() : 0; }
   /// Radius of the contact edge after the last correct(), 0 if open.
   virtual double edge_radius(std::span<const Body> bodies) const = 0;
   /// Work that moving planes have done on the body.
@@ -48,7 +69,11 @@ class Contact
   virtual void visit_state(StateArchive& archive);
 
  protected:
+  double pull(std::span<Body> bodies, double kick) { return pull_ ? pull_->pull(bodies, kick) : 0; }
   double dissipated_ = 0;
+
+ private:
+  std::unique_ptr<Pull> pull_;  // null: none
 };
 
 /// A side of a contact: markers of the first body's surface against planes or against another body.
@@ -94,7 +119,10 @@ inline constexpr SweepRule sweeps_in_three_dimensions{15, 1e-6, 0.05};
 class RowContact : public Contact
 {
  public:
-  RowContact(std::unique_ptr<Side> side, SweepRule rule) : side_(std::move(side)), rule_(rule) {}
+  RowContact(std::unique_ptr<Side> side, SweepRule rule, std::unique_ptr<Pull> pull = nullptr)
+      : Contact(std::move(pull)), side_(std::move(side)), rule_(rule)
+  {
+  }
   double correct(std::span<Body> bodies, double kick, double dt) override;
   void account(std::span<const Body> bodies) override;
   double edge_radius(std::span<const Body> bodies) const override { return side_->edge_radius(bodies); }

@@ -8,22 +8,35 @@
 
 namespace granulaw {
 
-namespace {
-
-/// Place and velocity of a surface point.
-struct Motion
-{
-  double r, z, vr, vz;
-};
-
-Motion motion(const Body& b, int m)
+SurfaceMotion surface_motion(const Body& b, int m)
 {
   const Markers& s = b.reference().surface;
   const Vector3 u = carried(b.u_i, s, m), v = carried(b.v_i, s, m);
   return {s.place[m][0] + u[0], s.place[m][2] + u[2], v[0], v[2]};
 }
 
-}  // namespace
+Opposite::Opposite(std::span<const Body> bodies) : body_(bodies.size() > 1 ? &bodies[1] : nullptr)
+{
+  if (body_) inner_ = surface_motion(*body_, 0), outer_ = surface_motion(*body_, 1);
+}
+
+bool Opposite::find(const SurfaceMotion& x, Place& place)
+{
+  place = {x.z, x.vz};
+  if (!body_) return true;
+  while (x.r > outer_.r && segment_ + 2 < body_->reference().surface.count) {
+    ++segment_;
+    inner_ = outer_;
+    outer_ = surface_motion(*body_, segment_ + 1);
+  }
+  if (outer_.r <= inner_.r || x.r > outer_.r) return false;
+  const double slope = (outer_.z - inner_.z) / (outer_.r - inner_.r);
+  const double t = std::max(0.0, (x.r - inner_.r) / (outer_.r - inner_.r));
+  place.slope = slope, place.t = t, place.segment = segment_;
+  place.gap += (1 - t) * inner_.z + t * outer_.z;
+  place.approach += (1 - t) * inner_.vz + t * outer_.vz + slope * (x.vr - (1 - t) * inner_.vr - t * outer_.vr);
+  return true;
+}
 
 Surface::Surface(std::span<const Body> bodies)
 {
@@ -35,7 +48,7 @@ Surface::Surface(std::span<const Body> bodies)
 }
 
 /// The two points of the other surface about the place across the marker.
-void Surface::set_far(const Body& lower, const Across& other, ContactRow& row)
+void Surface::set_far(const Body& lower, const Opposite::Place& other, ContactRow& row)
 {
   const Markers& surface = lower.reference().surface;
   const int corners = surface.corners;
@@ -57,30 +70,17 @@ int Surface::add_rows(std::span<Body> bodies, const RowNodes* nodes, double kick
   const Body* lower = bodies.size() > 1 ? &bodies[1] : nullptr;
   const Markers& surface = upper.reference().surface;
   const RowKernels& kernels = row_kernels(upper);
-  int made = 0, segment = 0;  // of the lower surface, found by walking outwards
-  Motion low0{}, low1{};
-  if (lower) low0 = motion(*lower, 0), low1 = motion(*lower, 1);
+  Opposite opposite(bodies);
+  int made = 0;
   for (int m = 0; m < surface.count; ++m) {
     double* impulse = impulse_.data() + 4 * static_cast<std::size_t>(m);
-    const Motion x = motion(upper, m);
-    Across other{x.z, x.vz};
-    gap_[m] = x.z, radius_[m] = x.r;
-    if (lower) {
-      while (x.r > low1.r && segment + 2 < lower->reference().surface.count) {
-        ++segment;
-        low0 = low1;
-        low1 = motion(*lower, segment + 1);
-      }
-      if (low1.r <= low0.r || x.r > low1.r) {
-        std::fill_n(impulse, 4, 0.0);
-        continue;  // beyond the other surface
-      }
-      const double slope = (low1.z - low0.z) / (low1.r - low0.r);
-      const double t = std::max(0.0, (x.r - low0.r) / (low1.r - low0.r));
-      other.slope = slope, other.t = t, other.segment = segment;
-      other.gap += (1 - t) * low0.z + t * low1.z;
-      other.approach += (1 - t) * low0.vz + t * low1.vz + slope * (x.vr - (1 - t) * low0.vr - t * low1.vr);
-      gap_[m] = other.gap;
+    const SurfaceMotion x = surface_motion(upper, m);
+    Opposite::Place other;
+    const bool across = opposite.find(x, other);
+    gap_[m] = other.gap, radius_[m] = x.r;
+    if (!across) {
+      std::fill_n(impulse, 4, 0.0);
+      continue;
     }
     const double slope = other.slope, kept = impulse[2];
     // a row for each point that would pass, or might once its neighbours are pushed back

@@ -4,9 +4,37 @@
 
 namespace granulaw {
 
-/// Any surface of revolution against the rigid, frictionless plane z = 0 or against another body's surface (a
-/// polyline through its surface points), which is described in its own frame: pole at the origin, mirrored,
-/// so that the gap is the sum of both heights. Normals are those of the other surface.
+/// Place and velocity of a surface point.
+struct SurfaceMotion
+{
+  double r, z, vr, vz;
+};
+SurfaceMotion surface_motion(const Body& body, int marker);
+
+/// What the first body's surface meets: the plane z = 0, or the second body's surface, a polyline through its surface points, found
+/// by walking outwards.
+class Opposite
+{
+ public:
+  struct Place
+  {
+    double gap, approach, slope = 0;
+    int segment = 0;
+    double t = 0;  ///< place on the segment, 0 to 1
+  };
+  explicit Opposite(std::span<const Body> bodies);
+  /// The place across a point; false: it lies beyond the other surface. To be asked from the pole outwards.
+  bool find(const SurfaceMotion& point, Place& place);
+
+ private:
+  const Body* body_;  // null: the plane
+  int segment_ = 0;
+  SurfaceMotion inner_{}, outer_{};  // ends of the segment
+};
+
+/// Any surface of revolution against the rigid, frictionless plane z = 0 or against another body's surface, which
+/// is described in its own frame: pole at the origin, mirrored, so that the gap is the sum of both heights.
+/// Normals are those of the other surface.
 class Surface : public Side
 {
  public:
@@ -19,14 +47,7 @@ class Surface : public Side
   void visit_state(StateArchive& archive) override;
 
  private:
-  /// The other surface across a marker.
-  struct Across
-  {
-    double gap, approach, slope = 0;
-    int segment = 0;
-    double t = 0;  ///< place on the segment, 0 to 1
-  };
-  void set_far(const Body& lower, const Across& other, ContactRow& row);
+  void set_far(const Body& lower, const Opposite::Place& other, ContactRow& row);
 
   AlignedVector<double> impulse_;     // [surface point][4], of the last step: where the sweeps start
   std::vector<double> gap_, radius_;  // per surface point, before the step

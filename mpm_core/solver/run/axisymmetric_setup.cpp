@@ -1,13 +1,11 @@
 #include "solver/run/axisymmetric_setup.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
 #include "solver/contact/node_plane.hpp"
-#include "solver/contact/surface.hpp"
+#include "solver/contact/surface_pull.hpp"
 #include "solver/grid/mapped_body.hpp"
 #include "solver/grid/updated_body.hpp"
 #include "solver/material/law_table.hpp"
@@ -169,8 +167,8 @@ void Collision::check_bodies() const
 void Collision::check_grid() const
 {
   const bool two = partner_.particle || partner_.wall;
-  if (partner_.attraction.work > 0 && (two || !particle_.is_homogeneous_sphere() || !(options_.grid == GridKind::mapped || options_.grid == GridKind::automatic)))
-    fail("--work-of-adhesion", "is computed for a homogeneous sphere and the rigid plane, on the grid 'mapped'");
+  if (partner_.attraction.work > 0 && options_.grid == GridKind::updated)
+    fail("--work-of-adhesion", "is computed on reference grids only", name_of(options_.grid), "mapped, rectilinear");
   if (options_.grid == GridKind::spatial)
     fail("--grid", "is one of three dimensions", name_of(options_.grid), "mapped, rectilinear, updated");
   if (options_.grid == GridKind::mapped)
@@ -193,7 +191,8 @@ void Collision::check_grid() const
 
 double Collision::expected_overlap(double v) const
 {
-  const double hertz = hertz_overlap(reduced_mass_, e_star_, length_, v);
+  const double drawn_in = drawn_in_overlap(partner_.attraction.work / (scale_.stress * scale_.length), e_star_, length_);
+  const double hertz = std::max(hertz_overlap(reduced_mass_, e_star_, length_, v), drawn_in);
   const auto plastic = [&](const Material& m) {
     if (!m.yields()) return 0.0;
     const double rate = v * scale_.velocity() / scale_.length;
@@ -325,41 +324,31 @@ std::unique_ptr<Drive> Collision::drive() const
   return std::make_unique<BodyForce>();
 }
 
-/// In units of the run. The surface parts over a length of 1.46 w E*/sigma_0^2, which some cells must divide: with fewer than four the
-/// edge is trapped by the grid (docs/evidence/adhesion.md).
-Attraction Collision::attraction_over(double cell) const
-{
-  Attraction attraction = partner_.attraction;
-  if (attraction.work <= 0) return {};
-  attraction.work /= scale_.stress * scale_.length, attraction.range /= scale_.length;
-  constexpr double least = 4.0, share = 0.25 * 1.46;
-  const double zone = share * attraction.range * attraction.range / attraction.work;
-  if (zone < least * cell)
-    fail("--adhesion-range", fmt::format("the edge parts over {:.2g} cells, and {:g} are needed", zone / cell, least),
-         fmt::format("{:.3g} m", attraction.range * scale_.length),
-         fmt::format("{:.3g} m or more, or {:.2g} times the --resolution", std::sqrt(least * cell * attraction.work / share) * scale_.length,
-                     least * cell / zone));
-  return attraction;
-}
-
 Scene Collision::build(double deepest, int cells, double shift) const
 {
   Scene scene;
   const double block = block_for(particle_, deepest);
+  double widest = block;
   scene.bodies.push_back(body_of(particle_, block, cells, shift));
-  if (const auto& other = partner_.particle)
-    scene.bodies.push_back(body_of(*other, block_for(*other, deepest), cells, shift));
+  if (const auto& other = partner_.particle) {
+    const double beside = block_for(*other, deepest);
+    scene.bodies.push_back(body_of(*other, beside, cells, shift));
+    widest = std::max(widest, beside);
+  }
   if (partner_.wall) scene.bodies.push_back(thick_wall(*partner_.wall, block, cells, shift));
   if (options_.precision == Precision::single)
     for (Body& body : scene.bodies) {
       if (body.moving) fail("--precision", "the updated grid does double precision only", "single", "double");
       body.use_single();
     }
+  std::unique_ptr<Pull> pull;
+  if (partner_.attraction.work > 0)
+    pull = std::make_unique<SurfacePull>(in_run_units(partner_.attraction, widest / cells), scene.bodies);
   if (scene.bodies.size() == 1 && scene.bodies.front().reference().surface.corners == 1)
-    scene.contact = std::make_unique<NodePlane>(attraction_over(block / cells));
+    scene.contact = std::make_unique<NodePlane>(std::move(pull));
   else
     scene.contact =
-        std::make_unique<RowContact>(std::make_unique<Surface>(scene.bodies), sweeps_of_revolution);
+        std::make_unique<RowContact>(std::make_unique<Surface>(scene.bodies), sweeps_of_revolution, std::move(pull));
   return scene;
 }
 

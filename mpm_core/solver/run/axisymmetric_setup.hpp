@@ -39,7 +39,6 @@ class Collision : public Setup
   double block_for(const Particle& particle, double deepest) const;
   double fine_step(const Particle& particle, double block, int cells) const;
   /// Bodies whose fine cells span `block`.
-  Attraction attraction_over(double cell) const;
   Body body_of(const Particle& particle, double block, int cells, double shift) const;
   Body fitted_sphere(const Particle& sphere, double block, int cells, double shift) const;
   Body thick_wall(const Material& material, double block, int cells, double shift) const;

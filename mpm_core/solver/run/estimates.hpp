@@ -20,6 +20,12 @@ inline double plastic_overlap(double mass, double radius, double yield, double v
   return velocity * std::sqrt(mass / (5.6 * M_PI * radius * yield));
 }
 
+/// Overlap to which attraction draws elastic spheres in at no load, at most: a^2/R with a = (9 pi w R^2/(2 E*))^(1/3).
+inline double drawn_in_overlap(double work, double e_star, double radius)
+{
+  return std::pow(4.5 * M_PI * work * radius * radius / e_star, 2.0 / 3.0) / radius;
+}
+
 /// Largest overlap that a run is set up for, R.
 inline constexpr double deepest_overlap = 0.9;
 

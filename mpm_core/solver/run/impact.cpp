@@ -143,9 +143,7 @@ RunResult impact(const Particle& particle, const Approach& thrown, const Partner
   check_approach(thrown, scale);
   const double v = thrown.velocity / scale.velocity();
   const Vector3 spin(0, thrown.spin * scale.time(), 0);
-  // at no load an elastic sphere is drawn in to a contact of (9 pi w R^2/(2 E*))^(1/3)
-  const double w = partner.attraction.work / (scale.stress * scale.length);
-  const double deepest = std::max(setup.expected_overlap(v), std::pow(4.5 * M_PI * w, 2.0 / 3.0)), duration = 2.0 * deepest / v + 2.5;
+  const double deepest = setup.expected_overlap(v), duration = 2.0 * deepest / v + 2.5;
 
   const int across = setup.cells(options, deepest);
   return mean_of_shifted_grids(

@@ -31,6 +31,21 @@ void check_options(const RunOptions& options, const Particle& particle)
     fail("--checkpoint", "cannot go with --fields: the frames of a run that was stopped are not kept");
 }
 
+/// The surfaces part over a length of 1.46 w E*/sigma_0^2, which some cells must divide: with fewer than four the edge is trapped by the
+/// grid (docs/evidence/adhesion.md).
+Attraction Setup::in_run_units(Attraction attraction, double cell) const
+{
+  attraction.work /= scale_.stress * scale_.length, attraction.range /= scale_.length;
+  constexpr double least = 4.0, share = 0.25 * 1.46;
+  const double zone = share * e_star() * attraction.range * attraction.range / attraction.work;
+  if (zone < least * cell)
+    fail("--adhesion-range", fmt::format("the edge parts over {:.2g} cells, and {:g} are needed", zone / cell, least),
+         fmt::format("{:.3g} m", attraction.range * scale_.length),
+         fmt::format("{:.3g} m or more, or {:.2g} times the --resolution", std::sqrt(least * cell * attraction.work / (share * e_star())) * scale_.length,
+                     least * cell / zone));
+  return attraction;
+}
+
 bool in_three_dimensions(const Particle& particle, const Partner& partner, const RunOptions& options,
                          const char* needed)
 {

@@ -36,6 +36,8 @@ class Setup
 
  protected:
   explicit Setup(const Scales& scale) : scale_(scale) {}
+  /// Attraction in units of the run. Throws Error if cells of the length `cell` do not divide the zone over which an edge parts.
+  Attraction in_run_units(Attraction attraction, double cell) const;
   Scales scale_;
 };
 
