@@ -40,6 +40,7 @@ FixConfined::~FixConfined()
 
 void FixConfined::init()
 {
+  if (is_planning) return;
   force_reneighbor = !takes_all, next_reneighbor = -1;
   just_created = 0;  // else Modify::setup() would make all particles new, behind the first forces
   pressed = nullptr, widens_ = false;

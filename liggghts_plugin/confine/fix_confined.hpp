@@ -32,11 +32,15 @@ class FixConfined final : public LAMMPS_NS::Fix, public Confinement
   FixConfined(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
   ~FixConfined() override;
 
-  int setmask() override { return LAMMPS_NS::FixConst::END_OF_STEP | LAMMPS_NS::FixConst::PRE_EXCHANGE; }
+  /// In a plan it only has the values that a deck may name.
+  int setmask() override { return is_planning ? 0 : LAMMPS_NS::FixConst::END_OF_STEP | LAMMPS_NS::FixConst::PRE_EXCHANGE; }
   void init() override;
   void setup_pre_exchange() override { reserve_exchange(); }
   void pre_exchange() override;
-  void setup(int) override { write_rows(); }
+  void setup(int) override
+  {
+    if (!is_planning) write_rows();
+  }
   void end_of_step() override
   {
     if (takes_some) write_rows();

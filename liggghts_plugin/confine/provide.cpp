@@ -20,7 +20,7 @@ void provide_confinement(LAMMPS_NS::LAMMPS* lmp, const Options& options)
 {
   if (!says_confinement(options)) return;
   provide_fix<FixConfined>(lmp, "granulaw_confined", FixConfined::style_name);
-  if (auto* const fix = dynamic_cast<FixConfined*>(Session::of(lmp)->confinement)) fix->widen_lists();
+  if (auto* const fix = dynamic_cast<FixConfined*>(Session::of(lmp)->confinement); fix && !is_planning) fix->widen_lists();
 }
 
 void check_confinement(LAMMPS_NS::LAMMPS* lmp, const Setup& setup)

@@ -234,7 +234,8 @@ void CommandStyle::read(const CommandModels& models, int nargs, char** args,
   setup_.session->styles[setup_.wall] = this;
   if (!models.read_keywords) {
     DeckUnits::of(lmp_->update->unit_style, setup_.where);
-    return provide_observers(lmp_);
+    provide_observers(lmp_);
+    return provide_confinement(lmp_, setup_.options);
   }
   refuse_shape(lmp_, setup_, models.ids.superquadric());
   refuse_no_friction(models, setup_, rest);

@@ -8,6 +8,7 @@
 #include "liggghts_plugin/engine/fix_style.hpp"
 #include "liggghts_plugin/engine/private_members.hpp"
 #include "liggghts_plugin/plan/planner.hpp"
+#include "liggghts_plugin/run/contact_list.hpp"
 #include "output.h"
 #include "variable.h"
 
@@ -75,7 +76,9 @@ class NoContacts final : public LAMMPS_NS::ComputePairGranLocal
 
 LAMMPS_NS::Compute* make_no_contacts(LAMMPS_NS::LAMMPS* lmp, int iarg, int narg, char** arg)
 {
-  return new NoContacts(lmp, iarg, narg, arg);
+  bool ours[3];
+  std::vector<char*> words = stock_words_of_list(narg, arg, ours);
+  return new NoContacts(lmp, iarg, static_cast<int>(words.size()), words.data());
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <vector>
 
 #include "liggghts_plugin/deck/session.hpp"
 #include "liggghts_plugin/engine/fix_style.hpp"
@@ -13,26 +13,32 @@ namespace granulaw::plugin {
 
 namespace {
 
-constexpr int fixed_words = 3;  // ID, group, style
-
 LAMMPS_NS::Compute* make_compute(LAMMPS_NS::LAMMPS* lmp, int iarg, int narg, char** arg)
 {
-  static char id[] = "id";
-  bool flags[3] = {};
-  const char* names[3] = {"contactRadius", "largestOverlap", "dissipatedEnergy"};
-  std::vector<char*> rest;
-  for (int k = 0; k < narg; ++k) {
-    bool ours = false;
-    for (int n = 0; n < 3; ++n)
-      if (k >= fixed_words && std::strcmp(arg[k], names[n]) == 0) ours = flags[n] = true;
-    if (!ours) rest.push_back(arg[k]);
-  }
-  const bool any = flags[0] || flags[1] || flags[2];
-  if (any && static_cast<int>(rest.size()) == fixed_words) rest.push_back(id);
+  bool flags[3];
+  std::vector<char*> rest = stock_words_of_list(narg, arg, flags);
   return new ContactList(lmp, iarg, static_cast<int>(rest.size()), rest.data(), flags);
 }
 
 }  // namespace
+
+std::vector<char*> stock_words_of_list(int narg, char** arg, bool (&ours)[3])
+{
+  constexpr int fixed_words = 3;  // ID, group, style
+  static char id[] = "id";
+  const char* names[3] = {"contactRadius", "largestOverlap", "dissipatedEnergy"};
+  std::vector<char*> rest;
+  std::fill_n(ours, 3, false);
+  for (int k = 0; k < narg; ++k) {
+    const auto* const name = std::find_if(names, names + 3, [&](const char* n) { return k >= fixed_words && std::strcmp(arg[k], n) == 0; });
+    if (name == names + 3)
+      rest.push_back(arg[k]);
+    else
+      ours[name - names] = true;
+  }
+  if (static_cast<int>(rest.size()) == fixed_words && narg > fixed_words) rest.push_back(id);
+  return rest;
+}
 
 void provide_contact_list(LAMMPS_NS::LAMMPS* lmp)
 {

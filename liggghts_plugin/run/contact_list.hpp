@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "compute_pair_gran_local.h"
 #include "liggghts_plugin/engine/liggghts.hpp"
 
@@ -35,6 +37,8 @@ class ContactList : public LAMMPS_NS::ComputePairGranLocal
   int first_ = 0;  // of our columns
 };
 
+/// `arg` of such a compute without our words; `ours`: which of them it has.
+std::vector<char*> stock_words_of_list(int narg, char** arg, bool (&ours)[3]);
 /// From now on the deck's computes pair/gran/local and wall/gran/local are ContactList.
 void provide_contact_list(LAMMPS_NS::LAMMPS* lmp);
 

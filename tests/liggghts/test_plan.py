@@ -322,6 +322,13 @@ run 1
                  "dump l all local 1 contacts c_l[1] c_l[30] c_one[1]\nthermo_style custom step c_n\n")
         assert len(self.scene(BOX + FLOOR + ONE + lists + "run 10\n")["runs"]) == 1
 
+    def test_values_of_the_models_may_be_dumped(self):
+        """Words and fixes of the models are there, though no contact acts."""
+        deck = BOX.replace("hertz tangential history", "mpm tangential history law none.h5 materials a b confinement on energy on") + FLOOR + ONE
+        deck += ("compute l all pair/gran/local contactRadius largestOverlap dissipatedEnergy\ndump l all local 1 contacts c_l[4] c_l[6]\n"
+                 "dump p all custom 1 dump.* id f_granulaw[2] f_granulaw_confined[1] f_granulaw_confined[4]\nthermo_style custom step f_granulaw_confined[3]\nrun 10\n")
+        assert len(self.scene(deck)["runs"]) == 1
+
     def test_dumps_of_contacts_change_no_plan(self):
         (self.folder / "plate.stl").write_text(two_triangles())
         start = BOX + FLOOR + ONE + "fix plate all mesh/surface file plate.stl type 2 move 0 0 0.1\nfix plates all wall/gran model hertz tangential history mesh n_meshes 1 meshes plate\n"
