@@ -186,8 +186,8 @@ class Limits(unittest.TestCase):
         times = [float(row[3].split()[0]) for row in rows]
         low, high = min(times), max(times)
         energy = re.search(r"pressed bed then takes ([\d.]+) of Hertz's", page("docs/evidence/loop-time.md"))[1]
-        self.assertIn(f"`tangential plastic`; a bed pressed to a density of 0.94 with `energy on` | {low:.1f} to {high:.1f}; {energy} |", self.PAGE)
-        self.assertIn(f"With `energy on` a bed pressed to a density of 0.94 takes {energy}.", self.README)
+        self.assertIn(f"`tangential plastic`; a bed pressed to a solid fraction of 0.94 with `energy on` | {low:.1f} to {high:.1f}; {energy} |", self.PAGE)
+        self.assertIn(f"A bed pressed to a solid fraction of 0.94 takes {energy} times Hertz's time with `energy on`,", self.README)
         self.assertIn(f"takes {low:.1f} to {high:.1f}.", self.README)
         self.assertIn(f"takes {high:.1f} times Hertz's time", page("docs/project/roadmap.md"))
 

@@ -226,8 +226,8 @@ Pressing pressing_to(double solid_volume)
 std::string pressing_text(const Pressing& pressing, const std::string& confinement)
 {
   if (!(pressing.solid_volume > 0)) return {};
-  if (!pressing.needs_confinement()) return fmt::format("to a solid volume of {:.2f}: laws of one contact hold up to 0.60", pressing.solid_volume);
-  return fmt::format("to a solid volume of {:.2f} (overlaps of about {:.2f} R, mean pressure of about {:.2g} Y), and laws of one contact end at 0.60: {}",
+  if (!pressing.needs_confinement()) return fmt::format("to a solid fraction of {:.2f}: laws of one contact hold up to 0.60", pressing.solid_volume);
+  return fmt::format("to a solid fraction of {:.2f} (overlaps of about {:.2f} R, mean pressure of about {:.2g} Y), and laws of one contact end at 0.60: {}",
       pressing.solid_volume, pressing.overlap, pressing.pressure,
       confinement.empty() ? "say 'confinement auto', up to 4 times Hertz's loop (docs/guide/pressing.md)" : fmt::format("the deck says 'confinement {}'", confinement));
 }
