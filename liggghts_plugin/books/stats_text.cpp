@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "liggghts_plugin/deck/keywords.hpp"
-
 namespace granulaw::plugin {
 
 namespace {
@@ -56,8 +54,8 @@ std::string limits_text(const ContactStatistics& sum, const ContactStatistics::P
   if (deep.contacts > 0)
     add(fmt::format(
         "{:.0f} contacts flattened a body by more than a tenth of its radius; {:.0f} particles had several "
-        "of them at once: no law of one contact holds there, and no error bound; model mpm has {} (mpm plan)",
-        deep.contacts, deep.particles, for_pressed_beds));
+        "of them at once: no law of one contact holds there, and no error bound; model mpm has 'confinement auto' for pressed beds (mpm plan)",
+        deep.contacts, deep.particles));
   if (all.too_fast > 0)
     add(fmt::format("{:.0f} contacts began faster than the law's velocity axis goes", all.too_fast));
   if (all.too_slow > 0)

@@ -34,11 +34,6 @@ void refuse_twin(const ModelInfo& model)
     }
 }
 
-std::string refusal()
-{
-  return fmt::format("models {} are built for {}: choose among these", model_names(), built_combinations());
-}
-
 /// "tangential NAME" or "cohesion NAME" of ours, and the normal model that it is for.
 struct OwnPiece
 {
@@ -50,6 +45,14 @@ std::map<int, OwnPiece>& own_pieces()
 {
   static std::map<int, OwnPiece> pieces;
   return pieces;
+}
+
+std::string refusal()
+{
+  std::string own;
+  for (const auto& [id, piece] : own_pieces())
+    if (const ModelInfo* model = find_model(piece.normal)) own += fmt::format("; model {} also for '{}'", model->name, piece.name);
+  return fmt::format("models {} are built for {}{}: choose among these", model_names(), built_combinations(), own);
 }
 
 [[noreturn]] void refuse(LAMMPS* lmp, int64_t hash)

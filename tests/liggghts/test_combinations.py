@@ -86,7 +86,7 @@ class TestCombinations(Deck):
         """Each other model of LIGGGHTS, for pairs and walls, is refused in one sentence that says what is possible."""
         deck = wall_deck("mpm", self.words(), POWDER, RADIUS, 1.0, 2e-7).splitlines()
         deck = "\n".join(line.replace("tangential history", models) if line.startswith(command) else line for line in deck) + "\n"
-        self.refused(deck, "choose among these", ranks=ranks)
+        self.refused(deck, "model mpm also for 'tangential plastic'", "choose among these", ranks=ranks)
 
     def test_liquid_bridges(self):
         """easo and washino pull across the gap after a contact: elastic spheres move as under stock Hertz with the same model, on 1
