@@ -260,7 +260,7 @@ class Examples(unittest.TestCase):
         for row in rows:
             (free if "hardening" in row[0] or row[0].startswith("drops, E and Y") else known).extend(int(x) for x in row[2].split(", "))
         self.assertIn(f"in {min(known)} to {max(known)} of 100 data sets", page("docs/evidence/calibration.md"))
-        self.assertIn(f"free too it is {min(free)} to {max(free)}.", page("docs/evidence/calibration.md"))
+        self.assertIn(f"It is {min(free)} to {max(free)} of 100 where", page("docs/evidence/calibration.md"))
 
     def test_heap(self):
         """The verdicts of the pile: the page's answer is no stronger than the table of all decks."""
