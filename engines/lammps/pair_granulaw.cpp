@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "comm.h"
 #include "domain.h"
@@ -320,7 +321,11 @@ double PairGranulaw::single(int i, int j, int, int, double, double, double, doub
 void PairGranulaw::write_restart(FILE* file)
 {
   std::string text;
-  for (const auto& line : said_) text += fmt::format("{}\n", fmt::join(line, "\t"));
+  for (const auto& line : said_) {
+    const char* between = "";
+    for (const auto& word : line) text += std::exchange(between, "\t") + word;
+    text += '\n';
+  }
   const int size = static_cast<int>(text.size());
   fwrite(&size, sizeof size, 1, file);
   fwrite(text.data(), 1, text.size(), file);

@@ -312,11 +312,10 @@ std::vector<std::string> link_names(hid_t group, std::size_t most, const std::st
 
 std::vector<std::string> attribute_names(hid_t object, std::size_t most, const std::string& file)
 {
-  H5O_info_t info{};
-  if (H5Oget_info2(object, &info, H5O_INFO_NUM_ATTRS) < 0 || info.num_attrs > most)
-    fail(file, "an object has an unusable number of attributes", std::to_string(info.num_attrs),
-         fmt::format("up to {}", most));
-  return read_names(info.num_attrs, file, "an attribute has an unusable name",
+  const int count = H5Aget_num_attrs(object);  // H5Oget_info2's structure differs between HDF5 1.10 and 1.14
+  if (count < 0 || static_cast<std::size_t>(count) > most)
+    fail(file, "an object has an unusable number of attributes", std::to_string(count), fmt::format("up to {}", most));
+  return read_names(static_cast<hsize_t>(count), file, "an attribute has an unusable name",
                     [&](hsize_t k, char* name, std::size_t size) {
                       return H5Aget_name_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, size,
                                                 H5P_DEFAULT);
