@@ -29,7 +29,7 @@ LAMMPS_NS::Region* region_of(Domain* domain, const std::string& id)
 FixWallGranulaw::FixWallGranulaw(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg), where_(fmt::format("fix {} wall/granulaw", arg[0]))
 {
   restart_peratom = 1, restart_global = 1, create_attribute = 1;
-  scalar_flag = 1, extscalar = 1, vector_flag = 1, extvector = 1, global_freq = 1, size_vector = Books::size + 3;
+  scalar_flag = 1, extscalar = 1, vector_flag = 1, extvector = 1, global_freq = 1, size_vector = Books::values + 3;
   const auto* pair = dynamic_cast<PairGranulaw*>(force->pair_match("granulaw", 1));
   if (!pair || !pair->has_materials()) stop_all(lmp, fmt::format("{}: it stands behind pair_style granulaw and pair_coeff, whose law file and materials it has", where_));
   const std::string style = narg > 3 ? arg[3] : "";
@@ -203,7 +203,7 @@ double FixWallGranulaw::compute_scalar()
 
 double FixWallGranulaw::compute_vector(int k)
 {
-  double mine = k < Books::size ? books_.total(k) : force_[k - Books::size], all = 0.0;
+  double mine = k < Books::values ? books_.value(k) : force_[k - Books::values], all = 0.0;
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }

@@ -67,6 +67,9 @@ struct Books
   std::array<double, size> own{}, shared{};  ///< shared: contacts that another rank computes, too
 
   double total(int k) const { return own[k] + 0.5 * shared[k]; }
+  /// Those that a deck can name, in their places on the page: no adhesion, which these styles lack.
+  static constexpr int values = size - 1;
+  double value(int k) const { return total(k < GRANULAW_ADHESION ? k : k + 1); }
   /// Of all ranks. Collective.
   std::array<double, size> sums(MPI_Comm world) const;
   /// Into a restart file. Collective.

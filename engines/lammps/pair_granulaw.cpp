@@ -46,7 +46,7 @@ PairGranulaw::PairGranulaw(LAMMPS* lmp) : Pair(lmp)
   single_enable = 1, single_extra = 10, svector = new double[10]{};
   no_virial_fdotr_compute = 1, finitecutflag = 1, writedata = 0, one_coeff = 0;
   centroidstressflag = LAMMPS_NS::CENTROID_NOTAVAIL;
-  nextra = Books::size, pvector = new double[Books::size]{};
+  nextra = Books::values, pvector = new double[Books::values]{};
   comm_forward = 1;
   if (!domain->box_exist) stop_all(lmp, fmt::format("{}: it stands behind create_box, read_data or read_restart", style_name));
   if (modify->find_fix(place_id) >= 0 || modify->find_fix(history_id) >= 0) stop_all(lmp, fmt::format("{}: a deck has one of it", style_name));
@@ -280,7 +280,7 @@ void PairGranulaw::compute(int eflag, int vflag)
       ev_tally_xyz(i, j, nlocal, 0, state.stored_energy, 0.0, push[0], push[1], push[2], distance * n[0], distance * n[1], distance * n[2]);
     }
   }
-  for (int k = 0; k < Books::size; ++k) pvector[k] = books.total(k);
+  for (int k = 0; k < Books::values; ++k) pvector[k] = books.value(k);
 }
 
 const double* PairGranulaw::history_of(int i, int j) const

@@ -189,6 +189,12 @@ class TestStyles(Scene):
             found = self.e("zplane 0.0 NULL", "elastic_damping 0", speed=speed, steps=int(3000 * (2 / speed)**0.25))
             assert found == approx(expected, abs=2e-5)  # steps of 1e-8 s; mpm law's are finer
 
+    def test_the_force_of_a_wall_has_its_place(self):
+        """Values 9 to 11: a mechanism that these styles lack does not move them."""
+        force = 'print "F $(f_w[9]:%.17g) $(f_w[10]:%.17g) $(f_w[11]:%.17g) $(fz[1]:%.17g)"\n'
+        x, y, z, of_sphere = said(self.play(Lammps, lone("zplane 0.0 NULL", steps=400) + force), "F")[-1]
+        assert x == y == 0 and z == of_sphere > 0.1
+
     def test_units(self):
         """The same in all units but for rounding."""
         si = self.e("zplane 0.0 NULL")
