@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Pull-off forces and impacts with attraction by the solver, for docs/evidence/adhesion.md: a line for each run.
 
-    tests/validation/cohesive_presses.py [--resolution 40] [--mpm mpm] dents STIFFNESS HARDENING DEPTH CHI S [CHI S ...]
+    tests/validation/cohesive_presses.py [--resolution 40] [--grids 1] [--mpm mpm] dents STIFFNESS HARDENING DEPTH CHI S [CHI S ...]
     tests/validation/cohesive_presses.py [...] elastic DEPTH WORK TABOR [WORK TABOR ...]
     tests/validation/cohesive_presses.py [...] impacts STIFFNESS WORK S VELOCITY [VELOCITY ...]
 
@@ -39,7 +39,7 @@ class Runs:
         return done.stdout
 
     def solve(self, kind, *words):
-        return json.loads(self.mpm(kind, self.folder / "m.toml", "--particle", "p", "--resolution", self.asked.resolution, "--shifted-grids", "1", "--no-estimate", "-o", self.folder / "t.csv", "--json", *words))
+        return json.loads(self.mpm(kind, self.folder / "m.toml", "--particle", "p", "--resolution", self.asked.resolution, "--shifted-grids", self.asked.grids, "--no-estimate", "-o", self.folder / "t.csv", "--json", *words))
 
     def press(self, depth, *words):
         return self.solve("press", "--depth", depth, "--support", "midplane", *words)
@@ -91,13 +91,14 @@ def impacts(asked, folder):
         sticky = attraction(work, 2 * work / (strength * pressure))
         free, by_law = json.loads(runs.mpm(*law)), json.loads(runs.mpm(*law, *sticky))
         found = runs.solve("impact", *speed, *sticky)
-        print(f"{stiffness:g},{work:g},{v:g},{work / (pressure**2 * radius):.3f},{plain['e']:.4f},{free['e']:.4f},{found['e']:.4f},{by_law['e']:.4f}  # S {strength:g}, {cost(found)}", flush=True)
+        print(f"{stiffness:g},{work:g},{v:g},{work / (pressure**2 * radius):.2g},{plain['e']:.4f},{free['e']:.4f},{found['e']:.4f},{by_law['e']:.4f},{by_law['e'] - found['e']:+.3f},{strength:g}  # {cost(found)}", flush=True)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--mpm", default="mpm")
     parser.add_argument("--resolution", default="40")
+    parser.add_argument("--grids", default="1", help="shifted grids, whose mean is taken")
     parser.add_argument("kind", choices=("dents", "elastic", "impacts"))
     parser.add_argument("numbers", nargs="+", type=float)
     asked = parser.parse_args()

@@ -57,7 +57,7 @@ TEST(CohesiveImpact, OfAMirroredPairIsThatOnThePlane)
   EXPECT_NEAR(two.restitution, one.restitution, 0.005);
   EXPECT_NEAR(two.pull_off / one.pull_off, 1, 0.01);
   EXPECT_NEAR(two.delta_max / one.delta_max, 2, 0.002);
-  EXPECT_NEAR(two.adhesion_loss / one.adhesion_loss, 1, 0.1);
+  EXPECT_NEAR(two.adhesion_loss, one.adhesion_loss, 5e-4);
   EXPECT_LT(two.energy_error, 1e-3);
   RunOptions cut = one_grid(24);
   cut.grid = GridKind::rectilinear;
@@ -88,22 +88,24 @@ TEST(CohesiveImpact, OfUnlikeBodiesIsTheSameFromBothSides)
   EXPECT_GT(wall.pull_off, 1.1 * here.pull_off);  // its radius is infinite
 }
 
-/// Slow elastic spheres stick, faster ones leave with the energy that is left. A long range: the sticking speed lies between Johnson,
-/// Kendall and Roberts's and twice it (docs/evidence/adhesion.md).
+/// Slow elastic spheres stick, faster ones leave with the energy that is left: at this long range 0.54 of Johnson, Kendall and Roberts's
+/// is lost (docs/evidence/adhesion.md), to elastic waves. The attraction itself takes nothing: what parting costs it gave before the
+/// surfaces touched.
 TEST(CohesiveImpact, SticksOrLeaves)
 {
   constexpr double work = 1e-4;
   Partner plane;
   plane.attraction = {work, 2.2e-3};  // Tabor 1.0
   const double mass = 4.0 / 3.0 * M_PI, sticking = std::sqrt(2 * 7.09 * std::cbrt(std::pow(work, 5)) / mass);
-  const RunSummary slow = impact(reference::unit_sphere(0, 0.3, 0), {.velocity = 0.7 * sticking}, plane, one_grid(40)).summary;
+  const RunSummary slow = impact(reference::unit_sphere(0, 0.3, 0), {.velocity = 0.65 * sticking}, plane, one_grid(40)).summary;
   EXPECT_TRUE(slow.sticks);
   EXPECT_EQ(slow.restitution, 0);
   const RunSummary fast = impact(reference::unit_sphere(0, 0.3, 0), {.velocity = 3 * sticking}, plane, one_grid(50)).summary;
   EXPECT_FALSE(fast.sticks);
   EXPECT_GT(fast.pull_off, 0);
-  EXPECT_LT(fast.restitution, std::sqrt(1 - 1 / 9.0) + 0.01);
-  EXPECT_GT(fast.restitution, 0.5);
+  EXPECT_NEAR(fast.restitution, std::sqrt(1 - 0.54 / 9.0), 0.01);
+  EXPECT_NEAR(fast.adhesion_loss, 0.0, 0.002);  // a sphere that starts at the wall would lose a third of its sticking energy
+  EXPECT_LT(fast.energy_error, 1e-3);
 }
 
 }  // namespace granulaw::adhesion_test
