@@ -142,6 +142,16 @@ class TestSizes(Composed):
         for found, law in zip(self.result(self.run_deck(text), "E"), expected):
             assert found / speed == approx(law[0], abs=TOLERANCE)
 
+    def test_the_time_step_is_that_of_the_law_followed(self):
+        """Gum of 1.1 and of five times the powder's radius: the former's law is the stiffer one, beyond what the sizes make."""
+        steps = []
+        for radius2 in (1.1 * RADIUS, 5.0 * RADIUS):
+            self.run_deck(self.pair(radius2, 1.0, 1e-7, more="stats s.json", dt=1e-8))
+            (pair,) = [p for p in json.loads((self.folder / "s.json").read_text())["pairs"] if p["types"] == [1, 2]]
+            mass = effective(sphere_mass(RADIUS, POWDER.density), sphere_mass(radius2, GUM.density))
+            steps.append(pair["time_step_limit_of_law_s"] / math.sqrt(mass / effective(RADIUS, radius2)))
+        assert steps[1] > 1.2 * steps[0]  # 1.39; without a law of its own 1
+
     @mark.parametrize("radius2, share", ((5.0 * RADIUS, 0.25), (10.0 * RADIUS, 0.0)))  # the law's own ratio, 3, and a deformable wall: it served no known particle
     def test_an_unforeseen_size(self, radius2, share):
         """A sphere that grows within a run, beyond what was known when the run began: its contacts follow the nearest law all the same."""

@@ -100,6 +100,23 @@ class TestHeat(Deck):
         ratio = gained["on", "law"] / gained["off", "law"]
         assert 0.9 < ratio < 0.999, ratio  # the radius goes as the root of the overlap, of which the body takes some per cent
 
+    def test_stored_areas_are_means_over_the_contacts(self):
+        """store_contact_data of three spheres in a row: the middle one's area is the mean of its two contacts'."""
+        depths = 0.02, 0.005
+        at = -(2 - depths[0]) * RADIUS, 0.0, (2 - depths[1]) * RADIUS
+        deck = (head(half=20 * RADIUS) + properties([POWDER]) + THERMAL +
+                f"pair_style gran model mpm tangential history {self.words('mpm', 'heatArea law')}\npair_coeff * *\n" +
+                CONDUCTION.replace("\n", " store_contact_data yes\n") +
+                "".join(f"create_atoms 1 single {x!r} 0 0 units box\n" for x in at) +
+                f"set group all diameter {2 * RADIUS!r} density {POWDER.density}\ntimestep {DT!r}\n" +
+                "".join(f"group g{k} id {k}\ncompute a{k} g{k} reduce sum f_contactAreaConduction\nvariable a{k} equal c_a{k}\n" for k in (1, 2, 3)) +
+                "thermo_style custom step c_a1 c_a2 c_a3\nrun 0\nrun 1\n" 'print "AREAS ${a1} ${a2} ${a3}"\n')
+        left, middle, right = self.result(self.run_deck(deck), "AREAS")
+        for found, depth in ((left, depths[0]), (right, depths[1])):
+            a = self.fixture("radius", self.law, "powder", "powder", RADIUS / 2, depth * RADIUS, depth * RADIUS, 0)[0]
+            assert found / (math.pi * a * a) == approx(1.0, abs=1e-5)  # printed with six digits
+        assert middle / (0.5 * (left + right)) == approx(1.0, abs=1e-5)
+
     def radius_of_law(self, model, depth):
         if model == "mpm":  # a rigid wall would have another: the wall here is deformable and of the same material
             return self.fixture("radius", self.law, "powder", "powder", RADIUS, depth * RADIUS, depth * RADIUS, 0)[0]

@@ -16,9 +16,11 @@ CONFIGURE = ("-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_REL
 MEMORY = 12 << 30  # bytes of address space: a faulty loop may ask for all there is
 BUILD_LIMIT = 1800.0  # s
 
+# Programs of unit tests, each file of which mirrors a header.
+UNITS = ("granulaw_unit", "granulaw_contact_unit", "granulaw_calibrate_unit", "granulaw_plugin_unit", "granulaw_atlas_unit")
 # Stages: what is built, which labels of ctest are run.
 STAGES = {
-    "unit": (("granulaw_unit", "granulaw_hostile_law", "read_law_replay", "read_materials_replay"), ("unit",)),
+    "unit": ((*UNITS, "granulaw_hostile_law", "read_law_replay", "read_materials_replay"), ("unit",)),
     "verification": (("granulaw_verification", "granulaw_restart", "granulaw_allocations"), ("verification",)),
     "cli": (("mpm",), ("cli", "hardcases")),
     "liggghts": (("liggghts-mpm", "granulaw_plugin", "law_fixture", "mpm"), ("liggghts",)),
@@ -40,7 +42,7 @@ MIRRORED = {
     "mpm_core/contact": ("contact",),
     "mpm_core/law": ("law", "contact", "base"),
     "mpm_core/characterise": ("characterise", "calibrate", "atlas", "farm", "solver", "law", "contact", "base"),
-    "liggghts_plugin": (),
+    "liggghts_plugin": ("plugin_core",),
     "tools/deck": ("deck", "law", "contact", "base"),
     "tools/mpm": ("mpm_parts", "material_file", "run_files", "deck", "characterise", "farm", "solver", "law", "contact", "base"),
 }
@@ -154,11 +156,14 @@ class Workshop:
         A header of the law is in most of the unit tests; its own test says most.
         """
         stem = Path(fault.path).stem + "_test"
-        said = subprocess.run(["ninja", "-C", str(self.build), "-t", "commands", "granulaw_unit"], capture_output=True, text=True).stdout
-        words = said.strip().splitlines()[-1].split() if said else []
-        objects = [w for w in words if w.endswith(".o") and "/granulaw_unit.dir/" in w]
-        own = next((w for w in objects if Path(w).name == stem + ".cpp.o"), None)
-        if own is None or "-o" not in words:
+        own = None
+        for unit in UNITS:
+            said = subprocess.run(["ninja", "-C", str(self.build), "-t", "commands", unit], capture_output=True, text=True).stdout
+            words = said.strip().splitlines()[-1].split() if said else []
+            own = next((w for w in words if w.endswith(f"/{stem}.cpp.o") and f"/{unit}.dir/" in w), None)
+            if own and "-o" in words:
+                break
+        else:
             return None
         ours = [w for w in words if w.endswith(".a") and not w.startswith("/")]
         libraries = [w for w in ours if any(w.endswith(f"granulaw_{n}.a") for n in MIRRORED[fault.folder])]

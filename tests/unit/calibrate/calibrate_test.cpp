@@ -403,6 +403,21 @@ TEST(Calibrate, ImpactsAloneDoNotTellHardeningFromARate)
   EXPECT_THAT(verdict(problem, calibrate(problem)), HasSubstr("do not distinguish hardening from"));
 }
 
+// A coordinate below that of no hardening means the same material: the wall alone keeps a search from there.
+TEST(Calibrate, NoHardeningIsAWallWhereverItStandsAmongTheUnknowns)
+{
+  for (const std::size_t place : {0, 1}) {
+    std::vector<Parameter> fit{Parameter::yield_stress};
+    fit.insert(fit.begin() + static_cast<std::ptrdiff_t>(place), Parameter::hardening_modulus);
+    const CalibrationProblem problem(atlas(), request_for(drops(stone(), {0.5, 2}), fit));
+    Coordinates q = Coordinates::Zero(static_cast<Eigen::Index>(problem.count()));
+    q[static_cast<Eigen::Index>(1 - place)] = problem.coordinate(1 - place, 60e6);
+    const double at_wall = problem.residuals(q).norm();
+    q[static_cast<Eigen::Index>(place)] = -0.5;
+    EXPECT_GT(problem.residuals(q).norm(), at_wall + 10) << place;
+  }
+}
+
 TEST(Calibrate, TheEnsembleScattersAsTheIntervalSays)
 {
   const auto& [problem, c] = Fitted(request_for(drops(stone(), {0.2, 0.5, 1, 2, 4}), {Parameter::yield_stress}));
