@@ -229,10 +229,10 @@ class TestStyles(Scene):
     def test_pair_local_gives_contacts(self):
         deck = (Lammps.head() + f"read_data {data_file(self.folder / 'a', [(1, RADIUS, DENSITY, 0, 0, 0.0), (2, 0.6 * RADIUS, DENSITY, 0, 0, 1.599 * RADIUS, 0.1, 0, -1)], ((-0.02, 0.02),) * 3, 2)}\n"
                 f"pair_style granulaw {self.law} friction 0.3\npair_coeff * * powder glass\npair_coeff 1 2 friction 0.5\nfix i all nve/sphere\ntimestep 1e-8\n"
-                "compute c all pair/local dist eng force fx fy fz p1 p4 p5 p6 p7 p8\ncompute s all reduce sum c_c[1] c_c[2] c_c[3] c_c[7] c_c[8] c_c[9] c_c[10] c_c[11] c_c[12]\n"
-                "thermo_style custom step pe c_s[1] c_s[2] c_s[3] c_s[4] c_s[5] c_s[6] c_s[7] c_s[8] c_s[9]\nrun 100\n"
-                'print "C $(fz[2]:%.17g) $(pe:%.17g) $(c_s[1]:%.17g) $(c_s[2]:%.17g) $(c_s[3]:%.17g) $(c_s[4]:%.17g) $(c_s[5]:%.17g) $(c_s[6]:%.17g) $(c_s[7]:%.17g) $(c_s[8]:%.17g) $(c_s[9]:%.17g)"\n')
-        force, pe, distance, energy, by_normal, shear, size, normal, overlap, radius, largest = said(self.play(Lammps, deck), "C")[-1]
+                "compute c all pair/local dist eng force fx fy fz p1 p4 p5 p6 p7 p8\ndump d all local 100 contacts c_c[1] c_c[2] c_c[3] c_c[7] c_c[8] c_c[9] c_c[10] c_c[11] c_c[12]\n"
+                'dump_modify d format float %.17g\nthermo_style custom step pe\nrun 100\nprint "C $(fz[2]:%.17g) $(pe:%.17g)"\n')
+        force, pe = said(self.play(Lammps, deck), "C")[-1]
+        distance, energy, by_normal, shear, size, normal, overlap, radius, largest = map(float, (self.folder / "contacts").read_text().splitlines()[-1].split())
         assert normal == approx(by_normal)
         assert overlap == approx(1.6 * RADIUS - distance, rel=1e-9)
         assert largest >= overlap * (1 - 1e-9)
