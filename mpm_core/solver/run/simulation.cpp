@@ -108,11 +108,11 @@ bool Simulation::step(Programme& programme)
   if (!turned && time_ < window_end_) return false;
   // at equal times since the reversal, whatever the step: samples of shifted grids are averaged one by one
   window_end_ = std::max(time_, (turned ? time_ : window_end_) + window_);
-  end_sample(branch, segment, overlap_before);
+  end_sample(branch, segment, overlap_before, energy_start + programme.work());
   return true;
 }
 
-void Simulation::end_sample(Branch branch, int segment, double overlap_before)
+void Simulation::end_sample(Branch branch, int segment, double overlap_before, double put_in)
 {
   const double length = time_ - window_start_;
   // overlaps are taken at the start of each step: shift the mean by half a step's travel
@@ -126,6 +126,7 @@ void Simulation::end_sample(Branch branch, int segment, double overlap_before)
   result.trace.push_back({window_start_ + 0.5 * length, overlap, force,
                           scene.contact->edge_radius(scene.bodies), branch, segment});
   scene.contact->end_sample(scene.bodies, length, result.planes);
+  most_put_in_ = std::max(most_put_in_, std::abs(put_in));
   window_start_ = time_;
   impulse_ = overlap_sum_ = 0;
   in_window_ = 0;
@@ -136,7 +137,7 @@ void Simulation::visit_state(Programme& programme, StateArchive& a)
   a.value(time_), a.value(dt_), a.value(last_dt_), a.value(overlap_), a.value(steps_), a.value(cpu_s_);
   a.value(last_touch_time_), a.value(last_touch_overlap_);
   a.value(impulse_), a.value(overlap_sum_), a.value(window_start_), a.value(window_end_);
-  a.value(in_window_);
+  a.value(in_window_), a.value(most_put_in_);
   a.growing(result.trace);
   visit_planes(a, result.planes);
   for (Body& body : scene.bodies) body.visit_state(a);
@@ -173,7 +174,7 @@ void Simulation::summarise(const Programme& programme)
   s.delta_residual = last_touch_overlap_;
   s.contact_time = last_touch_time_;
   const double put_in = energy_start + programme.work();
-  const double peak = std::max({energy_start, std::abs(put_in), loading_work()});
+  const double peak = std::max({energy_start, std::abs(put_in), most_put_in_});
   const double found = total(scene, &Body::kinetic_energy) + total(scene, &Body::strain_energy) +
                        total(scene, &Body::plastic_work) + scene.contact->dissipated() + scene.contact->attracted();
   s.energy_error = std::abs(found - put_in) / peak;

@@ -39,7 +39,7 @@ class Simulation
   double step_limit() const;
   double work(bool load) const;
   bool step(Programme& programme);
-  void end_sample(Branch branch, int segment, double overlap_before);
+  void end_sample(Branch branch, int segment, double overlap_before, double put_in);
   void summarise(const Programme& programme);
   void visit_state(Programme& programme, StateArchive& archive);
 
@@ -54,6 +54,7 @@ class Simulation
   long steps_ = 0;
   double cpu_s_ = 0;  // spent by the parts of this run before a restart, and by this one up to a checkpoint
   double last_touch_time_ = 0, last_touch_overlap_ = 0;
+  double most_put_in_ = 0;  // energy put in so far, at most; of the part that is computed
   // the sample being taken
   double impulse_ = 0, overlap_sum_ = 0, window_start_ = 0;
   long in_window_ = 0;
