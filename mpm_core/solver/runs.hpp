@@ -41,7 +41,7 @@ struct Partner
 {
   std::optional<Particle> particle{};  ///< a second particle, pole against pole
   std::optional<Material> wall{};      ///< a deformable wall with a flat, frictionless face
-  Attraction attraction{};             ///< between their surfaces; two dimensions
+  Attraction attraction{};             ///< between their surfaces; three dimensions: of rigid planes
 };
 
 struct RunOptions

@@ -126,7 +126,7 @@ Run press(Support support, const Partner& partner = {})
   return [=](const RunOptions& o) { return press(soft(), plan, partner, o); };
 }
 
-/// Three dimensions, with all that they keep: friction, spin, impulses at the markers.
+/// Three dimensions, with all that they keep: friction, spin, impulses at the markers; below, attraction.
 Run oblique_impact(const Partner& partner = {}, double velocity = 0.1)
 {
   Approach thrown{velocity};
@@ -138,7 +138,7 @@ Run cube_press()
 {
   PressPlan plan;
   plan.planes = named_planes("cube"), plan.depth = 0.08, plan.ramp = 10;
-  return [=](const RunOptions& o) { return press(soft(), plan, {}, o); };
+  return [=](const RunOptions& o) { return press(soft(), plan, {{}, {}, {1e-4, 0.02}}, o); };
 }
 
 std::vector<Job> jobs()

@@ -9,7 +9,7 @@
 #include "refusal.hpp"
 #include "solver/body/kernels.hpp"
 #include "solver/body/stable_step.hpp"
-#include "solver/contact/planes.hpp"
+#include "solver/contact/plane_pull.hpp"
 #include "solver/grid/spatial_grid.hpp"
 #include "solver/loading/press.hpp"
 #include "solver/run/time_step.hpp"
@@ -405,6 +405,25 @@ TEST(SpatialPress, UnloadsOnItsWayAndGoesOn)
                                        Branch::unload}));
   EXPECT_NEAR(force_at_depth(stopped, 0) / force_at_depth(straight, 0), 1, 0.01);
   EXPECT_NEAR(stopped.summary.restitution / straight.summary.restitution, 1, 0.02);
+}
+
+/// Attraction of a range so long that all of the lower surface is pulled alike: the body's shadow on the plane, as it is stretched.
+TEST(SpatialAttraction, PullsTheAreaOfTheDeformedSurface)
+{
+  std::vector<Body> bodies{ball(elastic, 0.1)};
+  const Markers& surface = bodies[0].reference().surface;
+  Planes planes(bodies[0], Vector3::Zero(), {{Vector3::UnitZ(), -2}});
+  std::vector<Vector3> patches;
+  for (int m = 0; m < surface.count; ++m) {
+    const auto& x = surface.place[m];
+    patches.push_back(surface.area[m] * Vector3(x[0], x[1], x[2]).normalized());
+  }
+  constexpr double range = 1e9, sigma = 0.5, kick = 0.01;
+  PlanePull pull(planes, bodies[0], {0.5 * sigma * range, range}, patches);
+  const double round = pull.pull(bodies, kick);
+  EXPECT_NEAR(round / (-kick * sigma * M_PI), 1, 0.003);  // flat patches of cells of 0.1
+  displace(bodies[0], Vector3(0.1, 0.2, -0.3).asDiagonal());
+  EXPECT_NEAR(pull.pull(bodies, kick) / round, 1.1 * 1.2, 1e-7);  // the gaps are not quite alike
 }
 
 /// The planes' way is the integral of their ramp, by the midpoint of each step, whatever the steps: 1e-5 of

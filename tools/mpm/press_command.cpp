@@ -73,13 +73,13 @@ PressPlan plan_by_planes(const PressRequest& r, const Particle& particle)
   return plan;
 }
 
-void press_by_planes(const PressRequest& r, const Particle& particle, RunIdentity asked, const std::function<void(const RunIdentity&, const Run&)>& run)
+void press_by_planes(const PressRequest& r, const Meeting& m, RunIdentity asked, const std::function<void(const RunIdentity&, const Run&)>& run)
 {
   if (r.support != "free") fail("--support", "cannot go with three dimensions: planes hold the body", r.support);
-  const PressPlan plan = plan_by_planes(r, particle);
+  const PressPlan plan = plan_by_planes(r, m.particle);
   for (const PressPlane& p : plan.planes)
     asked.emplace_back("--planes", fmt::format("{} {} {} {}", fmt::join(p.direction, " "), p.distance.value_or(-1), p.speed, p.friction));
-  run(asked, [&](const RunOptions& options) { return granulaw::press(particle, plan, {}, options); });
+  run(asked, [&](const RunOptions& options) { return granulaw::press(m.particle, plan, m.partner, options); });
 }
 
 void press_by_law(PressRequest& r, const Meeting& m)
@@ -102,8 +102,7 @@ void press(PressRequest r)
   if (!r.planes.empty() || r.by == "law") require_three_dimensions(r.run, r.planes.empty() ? "--by law" : "--planes");
   check(r);
   const Meeting m = read_meeting(r.run);
-  if (m.partner.attraction.work > 0 && in_three_dimensions(r.run, m.particle))
-    fail("--work-of-adhesion", "is computed in two dimensions: no planes, no law, no other shape");
+  if (m.partner.attraction.work > 0 && r.by == "law") fail("--work-of-adhesion", "is computed by --by solver");
   check_numbers(r);
   if (r.by == "law") return press_by_law(r, m);
   if (!r.law.empty()) fail("--law", "needs --by law", r.law);
@@ -111,7 +110,7 @@ void press(PressRequest r)
   print_setting(r.run, m.particle, 0);
   const RunIdentity asked{{"command", "press"}, {"--depth", fmt::format("{}", r.depth)}, {"--support", r.support}, {"--ramp", fmt::format("{}", r.ramp.value_or(0))}};
   if (in_three_dimensions(r.run, m.particle))
-    return press_by_planes(r, m.particle, asked, [&](const RunIdentity& identity, const Run& run) { run_and_report(r.run, m, identity, true, run); });
+    return press_by_planes(r, m, asked, [&](const RunIdentity& identity, const Run& run) { run_and_report(r.run, m, identity, true, run); });
   run_and_report(r.run, m, asked, true, [&](const RunOptions& options) { return granulaw::press(m.particle, plan, m.partner, options); });
 }
 

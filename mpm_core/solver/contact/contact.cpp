@@ -51,7 +51,7 @@ void Contact::visit_state(StateArchive& a)
 
 void Pull::visit_state(StateArchive& a)
 {
-  a.value(taken_);
+  a.value(taken_), a.value(work_);
 }
 
 double RowContact::correct(std::span<Body> bodies, double kick, double dt)

@@ -29,10 +29,12 @@ class Pull
   virtual void account(std::span<const Body> bodies) = 0;
   /// Energy taken so far: the work to part the surfaces less what they gave back.
   double taken() const { return taken_; }
-  virtual void visit_state(StateArchive& archive);
+  /// Work that moving planes have done by it.
+  double work() const { return work_; }
+  void visit_state(StateArchive& archive);
 
  protected:
-  double taken_ = 0;
+  double taken_ = 0, work_ = 0;
 };
 
 /// Contact of bodies with each other or with planes: impulses that keep them from passing through. No
@@ -60,7 +62,7 @@ class Contact
   /// Radius of the contact edge after the last correct(), 0 if open.
   virtual double edge_radius(std::span<const Body> bodies) const = 0;
   /// Work that moving planes have done on the body.
-  virtual double work() const { return 0; }
+  virtual double work() const { return pull_ ? pull_->work() : 0; }
   /// Adds the forces of each plane over a sample of length `time` to its trace.
   virtual void end_sample(std::span<const Body> /*bodies*/, double /*time*/,
                           std::vector<PlaneTrace>& /*planes*/)
@@ -126,7 +128,7 @@ class RowContact : public Contact
   double correct(std::span<Body> bodies, double kick, double dt) override;
   void account(std::span<const Body> bodies) override;
   double edge_radius(std::span<const Body> bodies) const override { return side_->edge_radius(bodies); }
-  double work() const override { return work_; }
+  double work() const override { return work_ + Contact::work(); }
   void end_sample(std::span<const Body> bodies, double time, std::vector<PlaneTrace>& planes) override
   {
     side_->end_sample(bodies, time, planes);

@@ -76,6 +76,8 @@ Planes::Planes(const Body& body, const Vector3& centre, std::vector<Plane> plane
       candidates_(planes_.size()),
       impulse_(4 * planes_.size() * static_cast<std::size_t>(markers_), 0.0),
       pushing_(planes_.size(), 0),
+      acting_(planes_.size(), 0),
+      in_this_step_(planes_.size(), 0),
       tallies_(planes_.size())
 {
   for (int k = 0; k < cell_nodes; ++k) offsets_[k] = 4 * body.reference().surface.offset[k];
@@ -100,7 +102,7 @@ void Planes::choose_candidates(const Body& body)
   for (int m = 0; m < markers_; ++m) {
     const Vector3 x = place(body, m);
     for (std::size_t k = 0; k < planes_.size(); ++k)
-      if (planes_[k].normal.dot(x) - planes_[k].position < room_) candidates_[k].push_back(m);
+      if (planes_[k].normal.dot(x) - planes_[k].position < wider_ + room_) candidates_[k].push_back(m);
   }
 }
 
@@ -145,12 +147,25 @@ double Planes::finish(std::span<const Body> bodies, std::span<const ContactRow> 
     if (normal <= 0) continue;
     pushing_[row.plane] = 1;
     if (row.plane == 0) first += plane.copies * normal;
-    const Vector3 x = place(bodies.front(), row.marker);
-    PlaneTally& tally = tallies_[row.plane];
-    tally.impulse += p, tally.torque += x.cross(p), tally.centre += normal * x;
+    tally(row.plane, p, place(bodies.front(), row.marker));
   }
+  std::swap(acting_, in_this_step_);
+  std::fill(in_this_step_.begin(), in_this_step_.end(), 0);
   for (Plane& plane : planes_) plane.position += dt * plane.velocity;
   return first;
+}
+
+void Planes::tally(int plane, const Vector3& impulse, const Vector3& place)
+{
+  PlaneTally& tally = tallies_[plane];
+  tally.impulse += impulse, tally.torque += place.cross(impulse), tally.centre += planes_[plane].normal.dot(impulse) * place;
+  in_this_step_[plane] = 1;
+}
+
+void Planes::widen(const Body& body, double more)
+{
+  wider_ = more;
+  choose_candidates(body);
 }
 
 std::array<double, 2> Planes::contact_axes(const Body& body, int k) const
@@ -231,15 +246,15 @@ void Planes::end_sample(std::span<const Body> bodies, double time, std::vector<P
   }
 }
 
-void Scene::meet(std::unique_ptr<Side> side)
+void Scene::meet(std::unique_ptr<Side> side, std::unique_ptr<Pull> pull)
 {
-  contact = std::make_unique<RowContact>(std::move(side), sweeps_in_three_dimensions);
+  contact = std::make_unique<RowContact>(std::move(side), sweeps_in_three_dimensions, std::move(pull));
 }
 
-void Scene::meet(std::unique_ptr<Planes> side)
+void Scene::meet(std::unique_ptr<Planes> side, std::unique_ptr<Pull> pull)
 {
   planes = side.get();
-  meet(std::unique_ptr<Side>(std::move(side)));
+  meet(std::unique_ptr<Side>(std::move(side)), std::move(pull));
 }
 
 }  // namespace granulaw

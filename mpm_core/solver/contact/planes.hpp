@@ -44,8 +44,14 @@ class Planes : public Side
 
   std::vector<Plane>& planes() { return planes_; }
   const std::vector<Plane>& planes() const { return planes_; }
-  /// True if a plane pushed in the last step.
-  bool pushes(int plane) const { return pushing_[plane]; }
+  /// Markers that might come within `more` of a plane soon are candidates, too. Before the first step.
+  void widen(const Body& body, double more);
+  const std::vector<int>& candidates(std::size_t plane) const { return candidates_[plane]; }
+  Vector3 place(const Body& body, int marker) const;
+  /// Adds an impulse on the body at a place to what the plane has done in this step.
+  void tally(int plane, const Vector3& impulse, const Vector3& place);
+  /// True if a plane pushed or pulled in the last step.
+  bool acts(int plane) const { return acting_[plane]; }
   /// Half axes of the contact with a plane, larger first; 0, 0 without contact. Where the gap ends that opens
   /// behind the edge: between the ellipses of the markers in contact, and with one and two rings of patches
   /// more, by edge_between().
@@ -53,7 +59,6 @@ class Planes : public Side
 
  private:
   void choose_candidates(const Body& body);
-  Vector3 place(const Body& body, int marker) const;
   double* impulse(std::size_t plane, int marker) { return impulse_.data() + 4 * (plane * markers_ + marker); }
 
   std::vector<Plane> planes_;
@@ -62,8 +67,9 @@ class Planes : public Side
   std::array<int, cell_nodes> offsets_;       // entries from a cell's lowest node to each of its nodes
   std::vector<std::vector<int>> candidates_;  // by plane: markers that might reach it soon
   double room_ = 0;                           // way that markers may go before candidates are chosen anew
+  double wider_ = 0;                          // gap up to which markers are candidates at any time
   AlignedVector<double> impulse_;             // [plane][marker][4], of the last step
-  std::vector<char> pushing_;
+  std::vector<char> pushing_, acting_, in_this_step_;
   std::vector<PlaneTally> tallies_;
 };
 

@@ -27,8 +27,8 @@ struct Scene
   Vector3 centre = Vector3::Zero();    ///< three dimensions: centre of mass of the undeformed body
 
   /// Three dimensions: the first body among planes, or against the second.
-  void meet(std::unique_ptr<Planes> planes);
-  void meet(std::unique_ptr<Side> side);
+  void meet(std::unique_ptr<Planes> planes, std::unique_ptr<Pull> pull = nullptr);
+  void meet(std::unique_ptr<Side> side, std::unique_ptr<Pull> pull = nullptr);
 
   /// Centre of mass of the first body now.
   Vector3 centre_now() const { return centre + travel_of(bodies.front()); }

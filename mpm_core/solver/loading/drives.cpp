@@ -59,7 +59,7 @@ void MovingPlanes::lead(Scene& scene, double speed)
 bool MovingPlanes::touches(const Scene& scene, bool) const
 {
   for (std::size_t k = 0; k < speeds_.size(); ++k)
-    if (speeds_[k] != 0 && scene.planes->pushes(static_cast<int>(k))) return true;
+    if (speeds_[k] != 0 && scene.planes->acts(static_cast<int>(k))) return true;
   return false;
 }
 

@@ -75,7 +75,9 @@ std::unique_ptr<SpatialSetup> thrown_body(const Particle& particle, const Approa
   const Eigen::Matrix3d rotation =
       rotation_to_plane(unit_direction(thrown.orientation, "--orientation"), thrown.turn);
   auto setup = std::make_unique<SpatialSetup>(particle, rotation, std::vector<Plane>{wall},
-                                              std::array<bool, 3>{!slides, true, false}, options);
+                                              std::array<bool, 3>{!slides, true, false}, options, partner.attraction);
+  if (partner.attraction.work > 0 && slides)
+    fail("--work-of-adhesion", "is computed of bodies that neither slide nor spin");
   if (partner.particle && thrown.first_contact_only)
     fail("first contact", "is followed on a rigid plane only", "a particle");
   if (partner.particle) setup->meet(*partner.particle, options);

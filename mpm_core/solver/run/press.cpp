@@ -32,7 +32,7 @@ namespace {
 
 /// A body among planes; without any that are named, a pair.
 std::unique_ptr<Setup> among_planes(const Particle& particle, const PressPlan& plan,
-                                    const RunOptions& options)
+                                    const Attraction& attraction, const RunOptions& options)
 {
   if (plan.support != Support::free)
     fail("--support", "cannot go with three dimensions: planes hold the body", "midplane");
@@ -45,7 +45,7 @@ std::unique_ptr<Setup> among_planes(const Particle& particle, const PressPlan& p
     planes.push_back(plane);
   }
   return std::make_unique<SpatialSetup>(particle, Eigen::Matrix3d::Identity(), planes,
-                                        std::array<bool, 3>{true, true, true}, options);
+                                        std::array<bool, 3>{true, true, true}, options, attraction);
 }
 
 std::unique_ptr<Setup> setup_of(const Particle& particle, const PressPlan& plan, const Partner& partner,
@@ -53,7 +53,7 @@ std::unique_ptr<Setup> setup_of(const Particle& particle, const PressPlan& plan,
 {
   if (in_three_dimensions(particle, partner, options, plan.planes.empty() ? nullptr : "a press by planes")) {
     if (partner.particle) fail("partner", "a press in three dimensions has planes only", "a particle");
-    return among_planes(particle, plan, options);
+    return among_planes(particle, plan, partner.attraction, options);
   }
   return std::make_unique<Collision>(particle, partner, options, plan.support);
 }

@@ -41,7 +41,7 @@ Attraction Setup::in_run_units(Attraction attraction, double cell) const
   if (zone < least * cell)
     fail("--adhesion-range", fmt::format("the edge parts over {:.2g} cells, and {:g} are needed", zone / cell, least),
          fmt::format("{:.3g} m", attraction.range * scale_.length),
-         fmt::format("{:.3g} m or more, or {:.2g} times the --resolution", std::sqrt(least * cell * attraction.work / (share * e_star())) * scale_.length,
+         fmt::format("{:.3g} m or more, or {:.3g} times the --resolution", std::sqrt(least * cell * attraction.work / (share * e_star())) * scale_.length,
                      least * cell / zone));
   return attraction;
 }
@@ -54,8 +54,8 @@ bool in_three_dimensions(const Particle& particle, const Partner& partner, const
   if (options.grid != GridKind::spatial && options.grid != GridKind::automatic)
     fail("--grid", fmt::format("{} needs three dimensions", reason), name_of(options.grid),
          name_of(GridKind::spatial));
-  if (partner.attraction.work > 0)
-    fail("--work-of-adhesion", fmt::format("is computed in two dimensions, and {} needs three", reason ? reason : "this grid"));
+  if (partner.attraction.work > 0 && partner.particle)
+    fail("--work-of-adhesion", "is computed against rigid planes in three dimensions", "a second particle");
   if (partner.wall) fail("partner", "three dimensions have rigid planes and second spheres only", "a wall");
   return true;
 }

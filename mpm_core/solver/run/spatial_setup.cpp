@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "solver/contact/plane_pull.hpp"
 #include "solver/contact/touching.hpp"
 #include "solver/grid/spatial_grid.hpp"
 #include "solver/material/law_table.hpp"
@@ -47,9 +48,10 @@ Plane touching_plane(const Vector3& normal)
 
 SpatialSetup::SpatialSetup(const Particle& particle, const Eigen::Matrix3d& rotation,
                            std::vector<Plane> planes, const std::array<bool, 3>& may_mirror,
-                           const RunOptions& options)
+                           const RunOptions& options, const Attraction& attraction)
     : SpatialSetup(particle, scales_of(particle), rotation, std::move(planes), may_mirror, options)
 {
+  attraction_ = attraction;
 }
 
 SpatialSetup::SpatialSetup(const Particle& particle, const Scales& scale, const Eigen::Matrix3d& rotation,
@@ -203,7 +205,8 @@ double SpatialSetup::expected_overlap(double v) const
 {
   const double radius = std::sqrt(touches_.front().sharper * touches_.front().flatter);
   const double mass = partner_ ? in_series(mass_, partner_->mass_) : mass_;
-  double deepest = std::max(hertz_overlap(mass, e_star_, radius, v), plastic_overlap_of(mass, v));
+  const double drawn_in = drawn_in_overlap(attraction_.work / (scale_.stress * scale_.length), e_star_, radius);
+  double deepest = std::max({hertz_overlap(mass, e_star_, radius, v), plastic_overlap_of(mass, v), drawn_in});
   if (partner_) deepest = std::max(deepest, partner_->plastic_overlap_of(mass, v));
   return std::min(deepest_overlap, deepest);
 }
@@ -312,6 +315,20 @@ Body SpatialSetup::body(double deepest, int cells, double shift) const
   return body;
 }
 
+std::unique_ptr<Pull> SpatialSetup::pull_of(Planes& planes, const Body& body, double deepest, int cells) const
+{
+  if (attraction_.work <= 0) return nullptr;
+  double widest = 0;
+  for (const Touch& touch : touches_) widest = std::max(widest, block_of(touch, deepest)[1]);
+  std::vector<Vector3> patches;
+  const Markers& surface = body.reference().surface;
+  for (int m = 0; m < surface.count; ++m) {
+    const auto& x = surface.place[m];
+    patches.push_back(surface.area[m] * (rotation_ * solid_->outward_normal(to_body({x[0], x[1], x[2]}))));
+  }
+  return std::make_unique<PlanePull>(planes, body, in_run_units(attraction_, widest / cells), std::move(patches));
+}
+
 Scene SpatialSetup::build(double deepest, int cells, double shift) const
 {
   Scene scene;
@@ -332,7 +349,9 @@ Scene SpatialSetup::build(double deepest, int cells, double shift) const
   }
   std::vector<Plane> at_rest = planes_;
   for (Plane& plane : at_rest) plane.velocity = 0;
-  scene.meet(std::make_unique<Planes>(body, scene.centre, at_rest));
+  auto side = std::make_unique<Planes>(body, scene.centre, at_rest);
+  std::unique_ptr<Pull> pull = pull_of(*side, body, deepest, cells);
+  scene.meet(std::move(side), std::move(pull));
   return scene;
 }
 

@@ -24,7 +24,7 @@ class SpatialSetup : public Setup
   /// `planes`: positions that are not a number become those where they touch. `may_mirror`: axes along which
   /// the motion is the same on both sides.
   SpatialSetup(const Particle& particle, const Eigen::Matrix3d& rotation, std::vector<Plane> planes,
-               const std::array<bool, 3>& may_mirror, const RunOptions& options);
+               const std::array<bool, 3>& may_mirror, const RunOptions& options, const Attraction& attraction = {});
   /// In the place of the plane a second sphere, with the plane's friction.
   void meet(const Particle& other, const RunOptions& options);
 
@@ -66,11 +66,13 @@ class SpatialSetup : public Setup
   /// their radius.
   Vector3 edges_of(const Touch& touch, const Vector3& normal, double deepest, int cells) const;
   SpatialSection section(double deepest, int cells, double shift) const;
+  std::unique_ptr<Pull> pull_of(Planes& planes, const Body& body, double deepest, int cells) const;
 
   Particle particle_;
   SharedShape solid_;
   Eigen::Matrix3d rotation_;
   std::vector<Plane> planes_;
+  Attraction attraction_;  ///< of the planes, SI units
   std::vector<Touch> touches_;
   std::vector<Plane> given_;
   std::vector<int> computed_;  ///< of each given plane the one that is computed: itself or its mirror image
