@@ -134,7 +134,7 @@ class Code:
         text = self.head("p p p", f"region box block 0 {side!r} 0 {side!r} 0 {side!r} units box\ncreate_box 2 box").replace("neighbor 0.0004", "neighbor 0.001") + self.law(["wax"], FRICTION)
         text += "".join(f"create_atoms 1 single {' '.join(map(repr, p))} units box\n" for p in points) + f"set group all diameter {2 * R!r}\nset group all density {density!r}\n"
         text += "".join(f"group g id {k}\nvelocity g set {' '.join(repr(-rate * (x - side / 2)) for x in p)} units box\ngroup g delete\n" for k, p in enumerate(points, 1))
-        text += "fix i all nve/sphere\nfix d all deform 1 " + " ".join(f"{a} erate {-rate!r}" for a in "xyz") + " remap v units box\n"
+        text += "fix i all nve/sphere\nfix d all deform 1 " + " ".join(f"{a} vel {-rate * side!r}" for a in "xyz") + " remap v units box\n"
         text += f"compute p all pressure thermo_temp virial\nvariable p equal c_p\ntimestep {dt!r}\nthermo_style custom step v_p\nthermo 100000\n"
         steps = [round((1 - (0.58 / d)**(1 / 3)) / rate / dt) for d in DENSITIES]
         for step, before in zip(steps, [0, *steps]):

@@ -24,8 +24,8 @@ FRACTIONS = (0.60, 0.65, 0.70, 0.75, 0.80)  # volume of the spheres / volume of 
 CONFINED = "mpm, confinement on"
 PACKING = HERE.parent / "benchmark" / "bed_30.txt"            # x y z R over R, in a periodic box
 RESOLVED = np.array([(0.63, 0.0794), (0.68, 0.1772), (0.73, 0.2909), (0.78, 0.4077), (0.83, 0.5507), (0.88, 0.7321), (0.93, 1.0018),
-                     (0.98, 1.4591)]).T  # solid volume and stress over Y by mpm compact, 12 cells a diameter (docs/evidence/packings.md)
-MODULUS, YIELD_STRESS, FIRST, LAST = 91e6 / (1 - 0.3**2), 1e6, 0.58, 1.005  # E* and Y of wax, Pa; solid volumes of the packing
+                     (0.98, 1.4591)]).T  # solid fraction and stress over Y by mpm compact, 12 cells a diameter (docs/evidence/packings.md)
+MODULUS, YIELD_STRESS, FIRST, LAST = 91e6 / (1 - 0.3**2), 1e6, 0.58, 1.005  # E* and Y of wax, Pa; solid fractions of the packing
 OVERLAP = 0.1  # overlap of a sphere over R (half the overlap): beyond it no single pair law holds (docs/evidence/pairs.md)
 
 
@@ -58,7 +58,7 @@ def models_of(args):
 
 
 def press_packing(args, out, law):
-    """Solid volume and stress over Y under each model, to full density."""
+    """Solid fraction and stress over Y under each model, to full density."""
     rate, step = 1e-3 * np.sqrt(MODULUS / DENSITY) / RADIUS, (0.2 if args.quick else 0.05) * RADIUS / np.sqrt(MODULUS / DENSITY)
     places = np.loadtxt(PACKING)[:, :3]
     volume = len(places) * 4 / 3 * np.pi * RADIUS**3
@@ -73,9 +73,9 @@ def press_packing(args, out, law):
                            {"scene": out, "dt": step, "rate": rate, "press": steps, "spheres": volume, **words}, "beyondRange continue" + more)
         found[name] = np.loadtxt(folder / "series.csv", delimiter=",", skiprows=1).T / [[1.0], [YIELD_STRESS]]
     with open(out / "packing.csv", "w") as file:
-        file.write("# mean stress over the yield stress, over 0.01 of the solid volume\n")
+        file.write("# mean stress over the yield stress, over 0.01 of the solid fraction\n")
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["solid volume", "resolved", *found])
+        table.writerow(["solid fraction", "resolved", *found])
         for at, stress in RESOLVED.T:
             table.writerow([at, stress] + [f"{curve[1][abs(curve[0] - at) <= 0.005].mean():.4g}" for curve in found.values()])
     return found
@@ -88,7 +88,7 @@ def draw_packing(found, out):
     for m, (filled, stress) in found.items():
         pictures.band(ax, np.convolve(filled, window, "valid"), [np.convolve(stress, window, "valid")], m, line="--" if m == CONFINED else "-")
     ax.plot(*RESOLVED, "ko", ms=4, label="resolved spheres (solver)")
-    ax.set(xlabel="solid volume", ylabel="mean stress / yield stress", ylim=(0, 1.25 * RESOLVED.max()))
+    ax.set(xlabel="solid fraction", ylabel="mean stress / yield stress", ylim=(0, 1.25 * RESOLVED.max()))
     ax.legend(fontsize=8)
     pictures.save(figure, out / "packing.png")
 

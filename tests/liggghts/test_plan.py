@@ -328,6 +328,7 @@ run 1
         deck += ("compute l all pair/gran/local contactRadius largestOverlap dissipatedEnergy\ndump l all local 1 contacts c_l[4] c_l[6]\n"
                  "dump p all custom 1 dump.* id f_granulaw[2] f_granulaw_confined[1] f_granulaw_confined[4]\nthermo_style custom step f_granulaw_confined[3]\nrun 10\n")
         assert len(self.scene(deck)["runs"]) == 1
+        assert "'confinement on', which excludes 'stretch'" in self.mpm("stretch", "in.deck", "--speed", "1", code=1).stderr
 
     def test_dumps_of_contacts_change_no_plan(self):
         (self.folder / "plate.stl").write_text(two_triangles())

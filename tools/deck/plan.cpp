@@ -176,6 +176,16 @@ std::vector<std::string> pairs_of_law(const AtomTypes& types, const AtomTypes& w
   return pairs;
 }
 
+/// 0.05 R/c*, which holds at E*/Y of 30 to 100, or the 0.01 of 1000 where it is over 200 (docs/guide/pressing.md).
+double confined_step(const AtomTypes& types)
+{
+  double step = std::numeric_limits<double>::infinity();
+  for (const auto& [type, t] : types)
+    if (t.material.yields() && t.density > 0)
+      step = std::min(step, (t.material.e_star() > 200 * t.material.yield_stress ? 0.01 : 0.05) * t.radius_min * std::sqrt(t.density / t.material.e_star()));
+  return std::isfinite(step) ? step : 0;
+}
+
 }  // namespace
 
 Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* visited)
@@ -198,6 +208,7 @@ Plan make_plan(const Scene& scene, const PlanOptions& options, const Visited* vi
   add_wall_pairs(encounters, types, walls, speeds, strikes);
   for (const Encounter& e : encounters) plan.pairs.push_back(plan_pair(e, options, scene.stretch, visited));
   plan.pressing = pressing_to(scene.solid_volume);
+  plan.pressing.time_step = confined_step(types);
   if (plan.pressing.needs_confinement() && !visited)  // a press goes to the end of any law
     for (PairPlan& p : plan.pairs)
       if (p.meeting.known_yield && p.meeting.yields.yields()) p.needs_table = true, p.depth = deepest_law;
@@ -227,9 +238,10 @@ std::string pressing_text(const Pressing& pressing, const std::string& confineme
 {
   if (!(pressing.solid_volume > 0)) return {};
   if (!pressing.needs_confinement()) return fmt::format("to a solid fraction of {:.2f}: laws of one contact hold up to 0.60", pressing.solid_volume);
-  return fmt::format("to a solid fraction of {:.2f} (overlaps of about {:.2f} R, mean pressure of about {:.2g} Y), and laws of one contact end at 0.60: {}",
+  return fmt::format("to a solid fraction of {:.2f} (overlaps of about {:.2f} R, mean pressure of about {:.2g} Y), and laws of one contact end at 0.60: {}{}",
       pressing.solid_volume, pressing.overlap, pressing.pressure,
-      confinement.empty() ? "say 'confinement auto', up to 4 times Hertz's loop (docs/guide/pressing.md)" : fmt::format("the deck says 'confinement {}'", confinement));
+      confinement.empty() ? "say 'confinement auto', up to 4 times Hertz's loop (docs/guide/pressing.md)" : fmt::format("the deck says 'confinement {}'", confinement),
+      pressing.time_step > 0 ? fmt::format(", time step up to {:.2g} s", pressing.time_step) : "");
 }
 
 const PairPlan* Plan::stiffest() const

@@ -17,6 +17,7 @@ struct Pressing
   double solid_volume = 0;  ///< of the spheres, over the box at its smallest; 0: not known, or nothing presses
   double overlap = 0;       ///< of each sphere over its radius, about
   double pressure = 0;      ///< over the yield stress, about
+  double time_step = 0;     ///< s, largest of a particle that is pressed from all sides (docs/guide/pressing.md); 0: not known
   /// Laws of one contact end (docs/guide/pressing.md).
   bool needs_confinement() const { return solid_volume > 0.6; }
 };

@@ -191,7 +191,7 @@ ordered_json to_json(const PlannedDeck& d, const std::string& command, const Att
   root["cost"] = cost_json(d);
   root["law_pairs"] = plan.law_pairs;
   root["pressing"] = plan.pressing.solid_volume > 0 ? ordered_json{{"solid_volume", plan.pressing.solid_volume}, {"overlap_over_radius", plan.pressing.overlap},
-      {"pressure_over_yield_stress", plan.pressing.pressure}, {"needs_confinement", plan.pressing.needs_confinement()}, {"confinement", d.scene.confinement.empty() ? "off" : d.scene.confinement}} : ordered_json();
+      {"pressure_over_yield_stress", plan.pressing.pressure}, {"time_step_s", plan.pressing.time_step}, {"needs_confinement", plan.pressing.needs_confinement()}, {"confinement", d.scene.confinement.empty() ? "off" : d.scene.confinement}} : ordered_json();
   root["beyond_laws"] = deck::beyond_laws(plan);
   root["not_bounded"] = plan.not_bounded;
   root["table_command"] = command.empty() ? ordered_json(nullptr) : ordered_json(printable(command));

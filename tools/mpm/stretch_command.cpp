@@ -95,6 +95,7 @@ void print(const deck::SoftenLimits& limits, const deck::Softening& s)
 void soften(const SoftenRequest& r)
 {
   const PlannedDeck d = plan_deck(r.deck, r.options);
+  if (!d.scene.confinement.empty()) fail(r.deck, fmt::format("it says 'confinement {}', which excludes 'stretch': take the time step that mpm plan prints", d.scene.confinement));
   require_answers(d.plan, r.deck);
   const deck::Softening s = deck::soften(d.scene, d.plan, d.options, r.limits);
   if (s.pairs.empty()) fail(r.deck, "no two bodies of it meet at any speed: there is nothing to stretch");

@@ -85,6 +85,7 @@ TEST(DeckPlan, APressHasThePressureOfAResolvedBed)
   EXPECT_NEAR(pressing_to(0.78).overlap, 1 - std::cbrt(0.58 / 0.78), 1e-12);
   EXPECT_FALSE(pressing_to(0.6).needs_confinement());
   EXPECT_TRUE(pressing_to(0.61).needs_confinement());
+  EXPECT_NEAR(plan_of(falling(), 1).pressing.time_step, 0.05 * plan_of(falling(), 1).radius_min * std::sqrt(1000 / (91e6 / 0.91)), 1e-12);
 }
 
 }  // namespace granulaw::deck::plan_test
