@@ -1,8 +1,8 @@
 #include "contact/adhesion.hpp"
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
-#include <cstring>
 #include <limits>
 
 namespace granulaw {
@@ -86,32 +86,28 @@ struct DentMaker
   /// The q at which the overlap is least: Newton's steps, kept between bounds.
   void find_snap()
   {
-    double low = 0.0, high = 1.0, q = std::cbrt(0.25 * dent.shift * dent.m.c[0] * dent.per_span);
+    double low = 0.0, high = 1.0, q = std::cbrt(0.25 * dent.s.c[0] * dent.per_span);
     if (!(dent.slope_at(1.0) > 0.0))
       q = 1.0;  // not even the whole edge is stable: the surfaces part where the straight line ends
     else
       for (int step = 0; step < 60; ++step) {
         const double v = q * q, slope = dent.slope_at(q);
         (slope > 0.0 ? high : low) = q;
-        const double bend = 12.0 * dent.span * v - dent.shift * q * (6.0 * dent.m.slope(v) + 4.0 * v * (2.0 * dent.m.c[2] + 6.0 * dent.m.c[3] * v));
+        const double bend = 12.0 * dent.span * v - q * (6.0 * dent.s.slope(v) + 4.0 * v * (2.0 * dent.s.c[2] + 6.0 * dent.s.c[3] * v));
         double next = q - slope / bend;
         if (!(next > low && next < high)) next = 0.5 * (low + high);
         if (std::abs(next - q) < 1e-14) break;
         q = next;
       }
     dent.q_snap = q, dent.x_snap = dent.overlap_at(q);
-    const double way = dent.x_max - dent.shift - dent.x_snap;
-    dent.per_snap = way > 0.0 ? 1.0 / way : 0.0;
-    dent.start = 2.0 * std::sqrt(std::max(way, 0.0) * dent.per_span * (1.0 / 6.0));  // q^2 - q_snap^2 over sqrt(x - x_snap) at the snap
   }
 
   /// Integral of the attached force from the snap to x <= x_max - shift.
   double work_to(double x) const
   {
-    double q = dent.first_q(x);
     if (dent.q_snap >= 1.0) return 0.0;
-    if ((x - dent.x_snap) * dent.per_snap > 1e-14)
-    for (int step = 0; step < 12; ++step) q -= (dent.overlap_at(q) - x) / dent.slope_at(q);
+    double q = dent.first_q(x);
+    for (int step = 0; step < 12 && dent.beyond_snap(x); ++step) q -= (dent.overlap_at(q) - x) / dent.slope_at(q);
     // Gauss and Legendre, nine points: the integrand is a polynomial of q
     constexpr std::array place{0.0, 0.3242534234038089, 0.6133714327005904, 0.8360311073266358, 0.9681602395076261};
     constexpr std::array weight{0.3302393550012598, 0.3123470770400029, 0.2606106964029354, 0.1806481606948574, 0.0812743883615744};
@@ -135,13 +131,14 @@ AdhesiveDent AdhesiveDent::of(const Curve& curve, double depth, double W)
   AdhesiveDent& dent = make.dent;
   const Reversal back = curve.reversal(depth);
   const double radius = curve.radius(depth);
-  dent.x_max = depth, dent.x_r = back.residual(), dent.span = 1.0 / back.per_span, dent.per_span = back.per_span;
+  dent.x_max = depth, dent.per_span = back.per_span;
+  dent.complete();
   const Nodes k = radii(curve, depth, radius);
   const Nodes rise = std::isfinite(curve.onset()) ? make.set_stiffness(k, radius, back.top()) : make.take_stiffness(curve, depth, k, radius);
-  dent.shift = std::sqrt(2.0 * M_PI * W * radius / rise[3]);  // d = sqrt(2 w dA/dS)
-  Nodes m{};
-  for (std::size_t j = 0; j < 4; ++j) m[j] = std::sqrt(k[j] * rise[3] / rise[j]);
-  dent.m = PowerCubic::through(m);
+  Nodes s{};
+  for (std::size_t j = 0; j < 4; ++j) s[j] = std::sqrt(2.0 * M_PI * W * radius * k[j] / rise[j]);  // sqrt(2 w dA/dS)/q
+  dent.s = PowerCubic::through(s);
+  dent.complete();
   if (W > 0.0) make.find_snap();
   return dent;
 }
@@ -167,21 +164,16 @@ double energy_unit(const Tabulated& law, double r_eff) { return law.force_scale 
 
 void DentAdhesion::turn(const Tabulated& law, const ContactMotion& m, double depth, double* history, Ledger& ledger) const
 {
-  AdhesiveDent dent = stored_dent(history);
-  if (dent.x_max != depth) {
-    dent = AdhesiveDent::of(*law.curve, depth, relative_work(m.r_eff));
-    std::memcpy(history + 2, &dent, sizeof dent);
-  }
+  if (history[2] != depth) std::ranges::copy(AdhesiveDent::of(*law.curve, depth, relative_work(m.r_eff)).kept(), history + 2);
   if (history[0] != owing || !m.advances) return;
-  const double energy = dent.energy(depth);
+  const double energy = AdhesiveDent::of(history + 2).energy(depth);
   ledger[Mechanism::adhesion] += energy_unit(law, m.r_eff) * (history[1] - energy);
   history[0] = booked, history[1] = energy;
 }
 
 void DentAdhesion::attach(const Tabulated& law, double r_eff, double* history, Ledger& ledger) const
 {
-  AdhesiveDent dent = stored_dent(history);
-  if (dent.x_max == 0.0) dent = AdhesiveDent::of(*law.curve, first, relative_work(r_eff));
+  const AdhesiveDent dent = history[2] == 0.0 ? AdhesiveDent::of(*law.curve, first, relative_work(r_eff)) : AdhesiveDent::of(history + 2);
   history[0] = booked, history[1] = dent.energy(dent.x_max);
   // surfaces that jump into contact gain no speed: the energy of the attraction there is lost
   ledger[Mechanism::adhesion] -= energy_unit(law, r_eff) * dent.energy(dent.x_max > first ? dent.x_r : 0.0);
@@ -192,8 +184,7 @@ double DentAdhesion::stored_energy(const Tabulated& law, double r_eff, double ov
   if (!holds(history)) return 0.0;
   if (history[0] == owing) return energy_unit(law, r_eff) * history[1];  // as booked: it is at its depth
   const double per_length = law.per_lambda / r_eff, depth = std::max(normal_history[0] * per_length, first);
-  AdhesiveDent dent = stored_dent(history);
-  if (dent.x_max != depth) dent = AdhesiveDent::of(*law.curve, depth, relative_work(r_eff));
+  const AdhesiveDent dent = history[2] != depth ? AdhesiveDent::of(*law.curve, depth, relative_work(r_eff)) : AdhesiveDent::of(history + 2);
   return energy_unit(law, r_eff) * dent.energy(std::max(overlap * per_length, dent.x_snap));
 }
 

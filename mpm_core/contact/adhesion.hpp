@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <string>
 
@@ -28,16 +27,26 @@ struct PowerCubic
 
 /// A dent that was pressed slowly to x_max, while it un- and reloads, and its attraction. v = sqrt(u), q = sqrt(v), u = (x - x_r)/span
 /// as the law has it. Without adhesion the stiffness is v h(v), and the force is its integral. With adhesion the state moves along
-/// its tangent by d(q) = shift q m(v) = sqrt(2 w dA/dS), A the area of contact and S the stiffness:
+/// its tangent by d(q) = q s(v) = sqrt(2 w dA/dS), A the area of contact and S the stiffness:
 ///     overlap  x_r + span q^4 - d          force  F_free - S d
 /// so that an unloading gives back w A less, exactly. Between x_max - shift and x_max the edge stays where it is: a straight line.
 struct AdhesiveDent
 {
   double x_max = 0;  ///< 0: none yet
   double x_r = 0, span = 1, per_span = 1, shift = 0;
-  PowerCubic h, m;
+  PowerCubic h, s;
   double q_snap = 1, x_snap = 0;   ///< the surfaces part there, at a given overlap
-  double start = 0, per_snap = 0;  ///< of first_q()
+
+  /// What is kept of it from step to step; the rest follows.
+  using Kept = std::array<double, 12>;
+  Kept kept() const { return {x_max, per_span, q_snap, x_snap, h.c[0], h.c[1], h.c[2], h.c[3], s.c[0], s.c[1], s.c[2], s.c[3]}; }
+  static AdhesiveDent of(const double* kept)
+  {
+    AdhesiveDent dent{.x_max = kept[0], .per_span = kept[1], .h = {{kept[4], kept[5], kept[6], kept[7]}},
+                      .s = {{kept[8], kept[9], kept[10], kept[11]}}, .q_snap = kept[2], .x_snap = kept[3]};
+    dent.complete();
+    return dent;
+  }
 
   /// Of the reversal of a slow press at `depth`; below the onset of yield and of elastic bodies the law's own unloading.
   static AdhesiveDent of(const Curve& curve, double depth, double W);
@@ -54,8 +63,7 @@ struct AdhesiveDent
   {
     if (x >= x_max - shift) return free_at(1.0) - stiffness() * (x_max - x);
     double q = first_q(x);
-    constexpr double at_snap = 1e-14;  // of the way: there the start is right to rounding, and the slope is none
-    if ((x - x_snap) * per_snap > at_snap)
+    if (beyond_snap(x))
       for (int step = 0; step < 3; ++step) q -= (overlap_at(q) - x) / slope_at(q);
     return force_at(q);
   }
@@ -66,6 +74,11 @@ struct AdhesiveDent
 
  private:
   friend struct DentMaker;
+  void complete()
+  {
+    span = 1.0 / per_span, x_r = x_max - span;
+    shift = (s.c[0] + s.c[1]) + (s.c[2] + s.c[3]);
+  }
   double free_at(double v) const
   {
     return 2.0 * span * v * v * v * ((h.c[0] * (1.0 / 3.0) + v * (h.c[1] * 0.25)) + v * v * (h.c[2] * 0.2 + v * (h.c[3] * (1.0 / 6.0))));
@@ -73,22 +86,26 @@ struct AdhesiveDent
   double overlap_at(double q) const
   {
     const double v = q * q;
-    return x_r + span * (v * v) - shift * q * m.at(v);
+    return x_r + span * (v * v) - q * s.at(v);
   }
   double slope_at(double q) const
   {
     const double v = q * q;
-    return 4.0 * span * q * v - shift * (m.at(v) + 2.0 * v * m.slope(v));
+    return 4.0 * span * q * v - (s.at(v) + 2.0 * v * s.slope(v));
   }
   double force_at(double q) const
   {
     const double v = q * q;
-    return free_at(v) - v * h.at(v) * (shift * q * m.at(v));
+    return free_at(v) - v * h.at(v) * (q * s.at(v));
   }
+  double way() const { return (x_max - shift) - x_snap; }
+  /// False: a start is right to rounding, and the slope is none.
+  bool beyond_snap(double x) const { return x - x_snap > 1e-14 * way(); }
   /// A start: right at both ends, and in the way in which q leaves the snap.
   double first_q(double x) const
   {
-    const double y = std::sqrt(std::max((x - x_snap) * per_snap, 0.0)), least = q_snap * q_snap;
+    const double y = std::sqrt(std::max(x - x_snap, 0.0) / way()), least = q_snap * q_snap;
+    const double start = std::sqrt(way() * per_span * (2.0 / 3.0));  // q^2 - q_snap^2 over y at the snap
     return std::sqrt(least + y * (start + y * (1.0 - least - start)));
   }
 };
@@ -119,8 +136,7 @@ struct AdhesionNumbers
 struct DentAdhesion
 {
   static constexpr std::array history_values{HistoryValue{.name = "attached"}, HistoryValue{.name = "adhesive_energy"},
-                                             HistoryValue{.name = "adhesive_dent", .values = 17, .derived = true}};
-  static_assert(sizeof(AdhesiveDent) == 17 * sizeof(double));
+                                             HistoryValue{.name = "adhesive_dent", .values = AdhesiveDent::Kept{}.size(), .derived = true}};
   static constexpr const char *property = "workOfAdhesion", *range_property = "adhesionRange";
   static constexpr double usual_range = usual_adhesion_range;
   /// Friction grows with the law's force alone, with what presses the surfaces, as beside LIGGGHTS's sjkr.
@@ -158,7 +174,7 @@ struct DentAdhesion
     if (!attached && !(x > 0.0)) return 0.0;
     if (history[2] != depth || history[0] == owing) [[unlikely]]
       turn(law, m, depth, history, ledger);
-    const AdhesiveDent dent = stored_dent(history);
+    const AdhesiveDent dent = AdhesiveDent::of(history + 2);
     if (attached) {
       if (x < dent.x_snap) [[unlikely]] {
         if (m.advances) history[0] = history[1] = 0.0;
@@ -187,12 +203,6 @@ struct DentAdhesion
  private:
   static constexpr double booked = 1.0, owing = 2.0;  ///< of `attached`: it went deeper, and the loss of its attraction is not booked
 
-  static AdhesiveDent stored_dent(const double* history)
-  {
-    std::array<double, 17> values;
-    std::copy_n(history + 2, values.size(), values.begin());
-    return std::bit_cast<AdhesiveDent>(values);
-  }
   void deepen(const Tabulated& law, double r_eff, double* history, Ledger& ledger) const
   {
     if (!holds(history)) attach(law, r_eff, history, ledger);
