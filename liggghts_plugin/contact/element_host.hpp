@@ -285,10 +285,11 @@ class ElementHost : public ContactInquiry
   }
   double* history_of(double* history) const { return history + history_offset_; }
 
-  /// What a restart brings may be of another law; whatever it lost was booked.
+  /// What a restart brings, or an earlier run, may be of another law; whatever it lost was booked.
   [[gnu::noinline, gnu::cold]] void begin_run(const Entry& entry, double r_eff, double* history) const
   {
     State::forget_derived(history);
+    if constexpr (Element::has_beside) Beside::forget_derived(history + Element::beside_at);
     if constexpr (BooksLater<Law>)
       if (books_later_ && State::largest(history) > 0.0)
         entry.element.normal.settle(r_eff, State::largest(history), State::impact_overlap(history), history + State::own);

@@ -160,6 +160,8 @@ struct DentAdhesion
   /// A quarter beyond that of Johnson, Kendall and Roberts: dents hold up to 1.15 of theirs.
   double reach(double r_eff) const { return 1.25 * 0.75 * std::cbrt(M_PI * M_PI * length_of_w * length_of_w * r_eff) * lambda; }
   static bool holds(const double* history) { return history[0] > 0.0; }
+  /// For a law or a work that may have changed.
+  static void forget_derived(double* history) { history[2] = 0.0; }
 
   double advance(const Tabulated& law, const ContactMotion& m, double, const double* normal_history, double* history, Ledger& ledger) const
   {

@@ -173,6 +173,18 @@ class TestAdhesion(Deck):
         assert again == approx(whole, rel=1e-6)
         assert max(abs(a - b) for k in end for a, b in zip(end[k], self.last_frame()[k])) < 1e-9 * 20e-6 * 1000
 
+    def test_a_new_work_of_adhesion_holds_from_the_next_run_on(self):
+        """A sphere on its way out of a dent: another value between two runs gives the force of one that had it all along."""
+        radius, other = 100e-6, "unfix w1\nfix w1 all property/global workOfAdhesion peratomtypepair 1 0.01\n"
+
+        def lifted(work, between):
+            deck = self.thrown(POWDER, radius, work, 0, 1e-9, 1000).replace(f"{radius * (1 + 1e-9)!r} units", f"{0.98 * radius!r} units")
+            deck = deck.replace("fix i all nve/sphere", "fix m all move linear 0 0 0.71\ncompute f all reduce sum fz\nvariable f equal c_f\nthermo_style custom step c_f")
+            return deck.replace('print "SPEED ${v}"', f'{between}run 1\nprint "FORCE ${{f}}"')
+
+        kept, changed, low = (f for (f,) in self.run_each((lifted(0.02, ""), lifted(0.02, other), lifted(0.01, "")), "FORCE"))
+        assert changed == low != approx(kept, rel=0.01)
+
     def test_refusals(self):
         radius = 100e-6
         deck = self.thrown(POWDER, radius, 0.02, 0.5, 1e-10, 10)
