@@ -156,7 +156,7 @@ const char* wrong_number(const granulaw_pair& pair)
       !positive(pair.elastic_damping))
     return "friction, shear_stiffness, shear_damping and elastic_damping: 0 or more";
   if (!positive(pair.work_of_adhesion) || !positive(pair.adhesion_range)) return "work_of_adhesion and adhesion_range: 0 or more";
-  if (pair.work_of_adhesion > 0 && pair.yields_in_shear) return "work_of_adhesion: not with yields_in_shear";
+  if (pair.work_of_adhesion > 0 && pair.yields_in_shear) return "work_of_adhesion: not with yields_in_shear (tangential plastic), as shear would have to pay for the surfaces that it parts";
   return nullptr;
 }
 

@@ -110,6 +110,8 @@ class TestContacts:
         assert forces[-1] == 0
         assert not history.any()
         assert ledger[4] > 0
+        with pytest.raises(granulaw.Error, match="work_of_adhesion: not with .*tangential plastic"):
+            law.contact("powder:wall", friction=0.3, tangential="plastic", work_of_adhesion=work, adhesion_range=reach)
         with pytest.raises(granulaw.Error, match="contact pressure"):
             law.contact("powder:wall", radius_a=radius, radius_b=np.inf, work_of_adhesion=0.1, adhesion_range=0.4e-9)
 
