@@ -44,6 +44,13 @@ Vector3 travel_of(const Body& b)
   return {b.travel[0], b.travel[1], b.travel[2]};
 }
 
+void move_body(Body& b, const Vector3& way)
+{
+  for (int c = 0; c < b.u_i.components; ++c)
+    for (int i = 0; i < b.nodes(); ++i) b.u_i(i, c) += way[b.u_i.direction(c)];
+  for (int d = 0; d < 3; ++d) b.travel[d] += way[d];
+}
+
 void throw_body(Body& b, const Vector3& velocity, const Vector3& spin, const Vector3& centre)
 {
   const NodeField& inverse_mass = b.reference().inverse_mass_i;

@@ -22,6 +22,8 @@ Vector3 carried(const NodeField& field, const Markers& markers, int marker);
 
 Vector3 travel_of(const Body& body);
 
+/// Moves a body at rest as a whole.
+void move_body(Body& body, const Vector3& way);
 /// Gives the body at rest a rigid motion: `velocity` of the point `centre` and a rotation about it.
 void throw_body(Body& body, const Vector3& velocity, const Vector3& spin = Vector3::Zero(),
                 const Vector3& centre = Vector3::Zero());

@@ -84,14 +84,6 @@ std::unique_ptr<SpatialSetup> thrown_body(const Particle& particle, const Approa
   return setup;
 }
 
-/// Moves a body at rest as a whole.
-void move_body(Body& body, const Vector3& way)
-{
-  for (int c = 0; c < body.u_i.components; ++c)
-    for (int i = 0; i < body.nodes(); ++i) body.u_i(i, c) += way[body.u_i.direction(c)];
-  for (int d = 0; d < 3; ++d) body.travel[d] += way[d];
-}
-
 void check_approach(const Approach& thrown, const Scales& scale)
 {
   if (!(thrown.velocity > 0))
