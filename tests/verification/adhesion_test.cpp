@@ -89,8 +89,8 @@ TEST(CohesiveImpact, OfUnlikeBodiesIsTheSameFromBothSides)
   EXPECT_GT(wall.pull_off, 1.1 * here.pull_off);  // its radius is infinite
 }
 
-/// Slow elastic spheres stick, faster ones leave with the energy that is left: at this long range 0.54 of Johnson, Kendall and Roberts's
-/// is lost (docs/evidence/adhesion.md), to elastic waves. The attraction itself takes nothing: what parting costs it gave before the
+/// Slow elastic spheres stick, faster ones leave with the energy that is left: at this long range half of Johnson, Kendall and Roberts's
+/// is lost, and the sticking speed is 0.68 of theirs (docs/evidence/adhesion.md). The attraction itself takes nothing: what parting costs it gave before the
 /// surfaces touched.
 TEST(CohesiveImpact, SticksOrLeaves)
 {
