@@ -5,6 +5,7 @@
 
 #include "fix_template_sphere.h"
 #include "liggghts_plugin/engine/shapes.hpp"
+#include "liggghts_plugin/particles/bodies.hpp"
 
 namespace granulaw::plugin {
 
@@ -26,7 +27,9 @@ ParticleSizes particle_sizes(LAMMPS_NS::LAMMPS* lmp)
   constexpr double none = std::numeric_limits<double>::infinity();
   ParticleSizes sizes{std::vector<double>(n, none), std::vector<double>(n, none),
                       std::vector<double>(n, 0.0)};
+  const std::vector<bool> enclosed = Bodies::enclosed(lmp);
   for (int a = 0; a < atom.nlocal; ++a) {
+    if (!enclosed.empty() && enclosed[static_cast<std::size_t>(a)]) continue;
     const int t = atom.type[a];
     const double radius = volume_radius(atom, a);
     sizes.radius[t] = std::min(sizes.radius[t], radius);
@@ -35,7 +38,7 @@ ParticleSizes particle_sizes(LAMMPS_NS::LAMMPS* lmp)
   }
   each_template(lmp, [&](LAMMPS_NS::FixTemplateSphere& particle, double density) {
     if (particle.is_relative()) return;
-    double radius = particle.min_rad(), largest = particle.max_rad();
+    double radius = Bodies::smallest_radius(particle), largest = particle.max_rad();
     if (superquadrics_built && atom.superquadric_flag)  // these two are of bounding spheres then
       radius = largest = std::cbrt(0.75 / M_PI * particle.volexpect());
     if (!(radius > 0)) return;

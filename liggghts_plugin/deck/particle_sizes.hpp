@@ -14,7 +14,8 @@ class LAMMPS;
 namespace granulaw::plugin {
 
 /// Least radius and mass and largest radius of each atom type, in the deck's units, of particles that exist
-/// and templates that fixes can insert; infinity, and 0 for the largest: there is none. Index 0 is unused.
+/// and templates that fixes can insert, without spheres within another one of their clump; infinity, and 0 for the largest: there is
+/// none. Index 0 is unused.
 struct ParticleSizes
 {
   std::vector<double> radius, mass, largest_radius;

@@ -1,6 +1,7 @@
 #include "liggghts_plugin/particles/bodies.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -30,10 +31,14 @@ Fix* next_fix(LAMMPS_NS::LAMMPS* lmp, int& f)
   return nullptr;
 }
 
+double distance(const double* a, const double* b)
+{
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
 bool spheres_overlap(const double* a, double radius_a, const double* b, double radius_b)
 {
-  const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]}, sum = radius_a + radius_b;
-  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < sum * sum * (1.0 - 1e-12);
+  return distance(a, b) < (radius_a + radius_b) * (1.0 - 1e-12);
 }
 
 bool overlaps_itself(LAMMPS_NS::FixTemplateMultisphere& clump)
@@ -46,16 +51,27 @@ bool overlaps_itself(LAMMPS_NS::FixTemplateMultisphere& clump)
   return false;
 }
 
+bool encloses(const double* a, double radius_a, const double* b, double radius_b)
+{
+  return radius_b < radius_a && distance(a, b) + radius_b <= radius_a * (1.0 + 1e-12);
+}
+
+/// Spheres of this rank and its ghosts by the clump that they belong to.
+std::map<int, std::vector<int>> spheres_by_clump(LAMMPS_NS::FixMultisphere& clumps, const LAMMPS_NS::Atom& atom)
+{
+  std::map<int, std::vector<int>> found;
+  for (int i = 0; i < atom.nlocal + atom.nghost; ++i)
+    if (clumps.belongs_to(i) >= 0) found[clumps.belongs_to(i)].push_back(i);
+  return found;
+}
+
 /// True if spheres of one body overlap, of those on this rank.
 bool any_overlaps_itself(LAMMPS_NS::FixMultisphere& clumps, const LAMMPS_NS::Atom& atom)
 {
-  std::map<int, std::vector<int>> of_body;
-  for (int i = 0; i < atom.nlocal; ++i)
-    if (clumps.belongs_to(i) >= 0) of_body[clumps.belongs_to(i)].push_back(i);
-  for (const auto& [tag, spheres] : of_body)
+  for (const auto& [tag, spheres] : spheres_by_clump(clumps, atom))
     for (const int i : spheres)
       for (const int j : spheres)
-        if (j < i && spheres_overlap(atom.x[i], atom.radius[i], atom.x[j], atom.radius[j])) return true;
+        if (atom.tag[j] < atom.tag[i] && spheres_overlap(atom.x[i], atom.radius[i], atom.x[j], atom.radius[j])) return true;
   return false;
 }
 
@@ -85,6 +101,37 @@ bool Bodies::overlap_themselves(LAMMPS_NS::LAMMPS* lmp)
   while (auto* clumps = next_fix<LAMMPS_NS::FixMultisphere>(lmp, f))
     if (any_overlaps_itself(*clumps, *lmp->atom)) return true;
   return false;
+}
+
+double Bodies::smallest_radius(LAMMPS_NS::FixTemplateSphere& particle)
+{
+  auto* clump = dynamic_cast<LAMMPS_NS::FixTemplateMultisphere*>(&particle);
+  if (!clump) return particle.min_rad();
+  double** x = clump->*exposed(TemplateCentres{});
+  const double* r = clump->*exposed(TemplateRadii{});
+  const int n = clump->number_spheres();
+  double smallest = particle.max_rad();
+  for (int j = 0; j < n; ++j) {
+    bool free = true;
+    for (int i = 0; i < n; ++i) free = free && !encloses(x[i], r[i], x[j], r[j]);
+    if (free) smallest = std::min(smallest, r[j]);
+  }
+  return smallest;
+}
+
+std::vector<bool> Bodies::enclosed(LAMMPS_NS::LAMMPS* lmp)
+{
+  const LAMMPS_NS::Atom& atom = *lmp->atom;
+  std::vector<bool> found;
+  int f = 0;
+  while (auto* clumps = next_fix<LAMMPS_NS::FixMultisphere>(lmp, f)) {
+    found.resize(static_cast<std::size_t>(atom.nlocal + atom.nghost));
+    for (const auto& [tag, spheres] : spheres_by_clump(*clumps, atom))
+      for (const int i : spheres)
+        for (const int j : spheres)
+          if (encloses(atom.x[i], atom.radius[i], atom.x[j], atom.radius[j])) found[static_cast<std::size_t>(j)] = true;
+  }
+  return found;
 }
 
 void Bodies::update(LAMMPS_NS::LAMMPS* lmp)

@@ -1,6 +1,12 @@
 #pragma once
 
+#include <vector>
+
 #include "liggghts_plugin/particles/particle_columns.hpp"
+
+namespace LAMMPS_NS {
+class FixTemplateSphere;
+}
 
 namespace granulaw::plugin {
 
@@ -18,6 +24,11 @@ class Bodies
   /// True if spheres of one clump overlap, of templates or of clumps on this rank: a partner that touches
   /// both there meets both. Not collective.
   static bool overlap_themselves(LAMMPS_NS::LAMMPS* lmp);
+
+  /// Smallest radius of a template's spheres, without those that lie within another sphere of their clump and so touch nothing.
+  static double smallest_radius(LAMMPS_NS::FixTemplateSphere& particle);
+  /// True for each such sphere of a clump on this rank; empty: there are no clumps. Not collective.
+  static std::vector<bool> enclosed(LAMMPS_NS::LAMMPS* lmp);
 
   /// Before the forces of each step. Collective.
   void update(LAMMPS_NS::LAMMPS* lmp);
