@@ -244,6 +244,42 @@ class TestMixture(Run):
         assert self.mean(law, "height of mcc over that of lactose") < 1
 
 
+class TestSticking:
+    words, pressures, bonds = ("--quick",), (10000,), (25,)
+
+    @fixture(autouse=True, scope="class")
+    def _run(self, request, tmp_path_factory):
+        cls = request.cls
+        cls.samples = example("sticking/run.py").main(["-o", str(tmp_path_factory.mktemp("sticking")), "--seeds", "1", *cls.words])
+
+    def mean(self, law, quantity):
+        return self.samples[law][quantity].mean
+
+    def pressed(self, quantity, pressure):
+        """By the elastic law, and by the one that yields."""
+        return [self.mean(law, f"pressed by {pressure} Pa: {quantity}") for law in ("elastic", "yielding")]
+
+    def slopes(self, bond):
+        return [self.mean(law, f"Bond number {bond}: slope at which it flows, degrees") for law in ("elastic", "yielding")]
+
+    def test_a_dent_holds_more(self):
+        for pressure in self.pressures:
+            for found in self.pressed("pressure, Pa", pressure):
+                assert 0.9 * pressure < found < 1.5 * pressure
+            for strength, estimate in zip(self.pressed("strength, Pa", pressure), self.pressed("Rumpf's estimate, Pa", pressure)):
+                assert 0.1 * estimate < strength < estimate  # not all contacts of a section part at once
+        elastic, yielding = self.pressed("strength, Pa", 10000)
+        assert yielding > 2 * elastic  # full size: 5
+
+    def test_it_flows_beyond_the_angle_of_friction(self):
+        for bond in self.bonds:
+            assert min(self.slopes(bond)) > math.degrees(math.atan(0.4))
+
+
+class TestStickingWhole(TestSticking):
+    words, pressures, bonds = (), (1000, 3000, 10000, 30000), (0, 1, 10, 25, 50)
+
+
 class TestPaper:
     @fixture(autouse=True, scope="class")
     def _rows(self, request, tmp_path_factory):
