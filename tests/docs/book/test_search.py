@@ -26,7 +26,7 @@ QUESTIONS = (
     ("Where do I report a bug?", ("report a bug", "bug", "where do I report a bug"), "guide/cite", "Send, as files"),
     ("Does it run on a GPU?", ("GPU", "does it run on a GPU", "CUDA"), "guide/clusters", "No part runs on a GPU"),
     ("How do I run it on a cluster?", ("Slurm", "cluster", "how do I run on a cluster"), "guide/clusters", "#SBATCH --ntasks"),
-    ("Other systems than Debian 12?", ("Ubuntu", "container", "docker", "Windows", "other systems"), "guide/install", "podman build"),
+    ("Other systems than Debian?", ("Ubuntu", "container", "docker", "Windows", "other systems"), "guide/install", "podman build"),
     ("How do I read the law in Matlab?", ("Matlab", "read law Matlab"), "reference/law-format", "readtable"),
     ("Coarse graining?", ("coarse graining", "coarse grain"), "guide/limits", "one large particle stands for many small ones"),
     ("Moisture and temperature?", ("moisture", "damp powder", "temperature dependence"), "guide/limits", "A law holds for the material in the state"),
