@@ -109,6 +109,8 @@ class ElementHost : public ContactInquiry
       registry.registerProperty(Beside::property, &number_of_beside);
       registry.connect(Beside::property, tangential.beside, "cohesion model");
     }
+    if constexpr (requires { Beside::range_property; })
+      tangential.range_of_beside = [this](int i, int j) { return pair_number(lmp_, Beside::range_property, i, j, Beside::usual_range / units_.length); };
     pairs_.resolve(physics_, *setup_, types, sizes, tangential, damping_ratios(registry, *setup_, types));
     Bodies::provide(lmp_, pairs_.needs_mass() || behind_offset_ >= 0);
     pairs_.enter(lmp_, physics_, *setup_, types, sizes);
@@ -314,16 +316,15 @@ class ElementHost : public ContactInquiry
     for (const auto& [offset, word] : {std::pair(behind_offset_, "bodyCompliance on"), std::pair(crushed_offset_, "beyondRange crush")})
       if (offset >= 0) fail(setup_->where, fmt::format("'cohesion dent' is not made for '{}'", word));
     const double gravity = gravity_of(lmp_);
-    pairs_.check_beside(*setup_, types, sizes, [&, this](const Element& element, int i, int j, double r_eff, double m_eff) {
+    pairs_.check_beside(*setup_, types, sizes, [&, this](const Element& element, double r_eff, double m_eff) {
       const double work = element.beside.length_of_w;
       if (!(work >= 0.0 && std::isfinite(work))) return fmt::format("'{}' must be 0 or more", Beside::property);
-      const double range = pair_number(lmp_, Beside::range_property, i, j, Beside::usual_range / units_.length) * units_.length;
-      if (!(range > 0.0)) return fmt::format("'{}' must be over 0", Beside::range_property);
+      if (!(element.beside.length_of_range > 0.0)) return fmt::format("'{}' must be over 0", Beside::range_property);
       const double bond = element.beside.smooth_pull_off(element.normal, r_eff) / (m_eff * gravity);  // of the stretched contact
       if (bond < 1.0 && bond * stretch_ >= 1.0)
         return fmt::format("the pull-off force is {:.3g} of the weight, with 'stretch {:g}' {:.3g}: particles that stick would fall off; at most "
                            "'stretch {:.3g}' here", bond * stretch_, stretch_, bond, bond * stretch_);
-      return element.beside.fault(element.normal, r_eff, range);
+      return element.beside.fault(element.normal, r_eff);
     });
   }
   static bool holds([[maybe_unused]] const double* history)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -29,6 +30,7 @@ struct TangentialChoice
   bool computed = false;        ///< stiffness from the law's contact radius, not from Hertz's
   double** friction = nullptr;  ///< coefficient, by types; null: no friction
   double** beside = nullptr;    ///< number of the piece beside the laws, by types
+  std::function<double(int, int)> range_of_beside{};  ///< its range, by types, where it has one
 };
 
 /// Which pair of types a contact belongs to; at a wall `jtype` is the wall's.
@@ -93,7 +95,10 @@ class PairTable
         each_entry(i, j, [&](Entry& entry) {
           complete(entry, setup.options.stretch.value_or(1.0), tangential, tangential.friction ? tangential.friction[i][j] : 0.0,
                    in_shear(types, i, j, tangential.damping).stiffness, damping_ratio[static_cast<std::size_t>(i * stride_ + j)]);
-          if constexpr (Element::has_beside) entry.element.beside = Beside(entry.element.normal, tangential.beside[i][j]);
+          if constexpr (requires { Beside::range_property; })
+            entry.element.beside = Beside(entry.element.normal, tangential.beside[i][j], tangential.range_of_beside(i, j));
+          else if constexpr (Element::has_beside)
+            entry.element.beside = Beside(entry.element.normal, tangential.beside[i][j]);
           complete_tangential(entry, in_shear(types, i, is_wall && !setup.options.deformable_wall ? 0 : j, tangential.damping));
           entry.behind_i = behind(types, i, setup.options.stretch.value_or(1.0));
           entry.behind_j = is_wall ? 0.0 : behind(types, j, setup.options.stretch.value_or(1.0));
@@ -119,7 +124,7 @@ class PairTable
   }
 
   /// Throws Error where the piece beside the laws does not hold for the smallest particles that can meet. `fault`: of the element's
-  /// normal law and piece, of types i and j and R*; a sentence.
+  /// normal law and piece, of R* and m*; a sentence.
   template <class Fault>
   void check_beside(const Setup& setup, const Types& types, const ParticleSizes& sizes, Fault&& fault) const
   {
@@ -130,7 +135,7 @@ class PairTable
         if (!types.can_meet(i, j, is_wall) || !(spheres.r_eff > 0.0)) continue;
         each_entry_in_use(i, j, sizes, [&](const Entry& entry, std::size_t) {
           if (entry.largest_overlap < 0.0) return;
-          if (const std::string why = fault(entry.element, i, j, spheres.r_eff, spheres.m_eff); !why.empty())
+          if (const std::string why = fault(entry.element, spheres.r_eff, spheres.m_eff); !why.empty())
             fail(setup.where, fmt::format("types {} and {}{}, R* {:.3g}: {}", i, j, is_wall ? " (wall)" : "", spheres.r_eff, why));
         });
       }

@@ -200,10 +200,9 @@ void make_laws(granulaw_contact_law& contact, const granulaw_pair& pair)
     const Tabulated normal(law, law.measure(), scale);
     ContactElement<Tabulated, Tangential, Beside> element{normal};
     if constexpr (std::same_as<Beside, DentAdhesion>) {
-      element.beside = DentAdhesion(normal, pair.work_of_adhesion);
-      const double range = said(pair.adhesion_range * scale.length, usual_adhesion_range);
+      element.beside = DentAdhesion(normal, pair.work_of_adhesion, said(pair.adhesion_range, usual_adhesion_range / scale.length));
       if (const double r_eff = serves ? r_eff_of(radius_a, radius_b) : 0; r_eff > 0 && std::isfinite(r_eff))
-        if (const std::string why = element.beside.fault(normal, r_eff, range); !why.empty()) fail("granulaw_contact", why);
+        if (const std::string why = element.beside.fault(normal, r_eff); !why.empty()) fail("granulaw_contact", why);
     }
     if constexpr (std::same_as<Tangential, Spring>) element.tangential = Spring(spring);
     if constexpr (std::same_as<Tangential, PlasticShear>) {

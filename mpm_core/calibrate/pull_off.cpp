@@ -65,7 +65,7 @@ FoundAdhesion fit_adhesion(const PairLaw& pair, double r_eff, const std::vector<
   std::vector<double> depths;
   for (const PullOff& d : data) depths.push_back(depth_of(law, r_eff, d.preload, source));
   const auto n = static_cast<double>(data.size());
-  const auto off = [&](double work, std::size_t k) { return std::log(data[k].pull_off / DentAdhesion(law, work).pull_off(law, r_eff, depths[k])); };
+  const auto off = [&](double work, std::size_t k) { return std::log(data[k].pull_off / DentAdhesion(law, work, range).pull_off(law, r_eff, depths[k])); };
   const auto mean_off = [&](double work) {
     double sum = 0;
     for (std::size_t k = 0; k < data.size(); ++k) sum += off(work, k);
@@ -79,8 +79,9 @@ FoundAdhesion fit_adhesion(const PairLaw& pair, double r_eff, const std::vector<
   }
   FoundAdhesion found;
   found.work = std::exp(high);
+  const DentAdhesion piece(law, found.work, range);
   for (const double depth : depths)
-    if (const std::string why = DentAdhesion(law, found.work).fault(law, r_eff, range, depth); !why.empty())
+    if (const std::string why = piece.fault(law, r_eff, depth); !why.empty())
       fail(source, fmt::format("the best work of adhesion is {:.3g} J/m2, and {}", found.work, why));
   double squares = 0, mean_load = 0, loads = 0, product = 0;
   for (const PullOff& d : data) mean_load += std::log(d.preload) / n;
@@ -89,7 +90,7 @@ FoundAdhesion fit_adhesion(const PairLaw& pair, double r_eff, const std::vector<
     squares += r * r, loads += x * x, product += x * r;
   }
   double half = 0;  // the law's errors at neighbouring dents are alike: their mean
-  for (const double depth : depths) half += DentAdhesion(law, found.work).numbers(law, r_eff, depth, range).pull_off_bound() / n;
+  for (const double depth : depths) half += piece.numbers(law, r_eff, depth).pull_off_bound() / n;
   if (data.size() > 1) {
     found.scatter = std::sqrt(squares / (n - 1));
     half = std::hypot(half, boost::math::quantile(boost::math::students_t(n - 1), 0.975) * found.scatter / std::sqrt(n));

@@ -31,6 +31,8 @@ Nodes radii(const Curve& curve, double depth, double radius)
     k[j] = std::max(depth > curve.onset() ? stored[j] : curve.radius(v * v * depth) / (radius * v), least);
   }
   k[3] = 1.0;
+  // A dent is smooth at its axis, or hollow: k does not rise from v = 0, where it is extrapolated
+  if (std::isfinite(curve.onset())) k[0] = std::max(k[0], (9.0 * k[1] - 4.5 * k[2] + k[3]) / 5.5);
   return k;
 }
 
@@ -125,7 +127,7 @@ struct DentMaker
   }
 };
 
-AdhesiveDent AdhesiveDent::of(const Curve& curve, double depth, double W)
+AdhesiveDent AdhesiveDent::of(const Curve& curve, double depth, double W, double zone)
 {
   DentMaker make;
   AdhesiveDent& dent = make.dent;
@@ -139,7 +141,15 @@ AdhesiveDent AdhesiveDent::of(const Curve& curve, double depth, double W)
   for (std::size_t j = 0; j < 4; ++j) s[j] = std::sqrt(2.0 * M_PI * W * radius * k[j] / rise[j]);  // sqrt(2 w dA/dS)/q
   dent.s = PowerCubic::through(s);
   dent.complete();
-  if (W > 0.0) make.find_snap();
+  if (!(W > 0.0)) return dent;
+  make.find_snap();
+  if (!(zone > 0.0)) return dent;
+  // The force is least where span q^3 is three times that of the snap, if s, k and h/(1 + K a/a_m) were the same
+  const double v = std::min(std::cbrt(9.0) * dent.q_snap * dent.q_snap, 1.0), rise_of_range = range_rise(zone / (radius * v * PowerCubic::through(k).at(v)));
+  for (std::size_t j = 0; j < 4; ++j) s[j] *= std::sqrt(1.0 + rise_of_range * (1.0 - share_of_node(j) * share_of_node(j)));
+  dent.s = PowerCubic::through(s);
+  dent.complete();
+  make.find_snap();
   return dent;
 }
 
@@ -164,7 +174,7 @@ double energy_unit(const Tabulated& law, double r_eff) { return law.force_scale 
 
 void DentAdhesion::turn(const Tabulated& law, const ContactMotion& m, double depth, double* history, Ledger& ledger) const
 {
-  if (history[2] != depth) std::ranges::copy(AdhesiveDent::of(*law.curve, depth, relative_work(m.r_eff)).kept(), history + 2);
+  if (history[2] != depth) std::ranges::copy(dent_of(law, m.r_eff, depth).kept(), history + 2);
   if (history[0] != owing || !m.advances) return;
   const double energy = AdhesiveDent::of(history + 2).energy(depth);
   ledger[Mechanism::adhesion] += energy_unit(law, m.r_eff) * (history[1] - energy);
@@ -173,7 +183,7 @@ void DentAdhesion::turn(const Tabulated& law, const ContactMotion& m, double dep
 
 void DentAdhesion::attach(const Tabulated& law, double r_eff, double* history, Ledger& ledger) const
 {
-  const AdhesiveDent dent = history[2] == 0.0 ? AdhesiveDent::of(*law.curve, first, relative_work(r_eff)) : AdhesiveDent::of(history + 2);
+  const AdhesiveDent dent = history[2] == 0.0 ? dent_of(law, r_eff, first) : AdhesiveDent::of(history + 2);
   history[0] = booked, history[1] = dent.energy(dent.x_max);
   // surfaces that jump into contact gain no speed: the energy of the attraction there is lost
   ledger[Mechanism::adhesion] -= energy_unit(law, r_eff) * dent.energy(dent.x_max > first ? dent.x_r : 0.0);
@@ -184,7 +194,7 @@ double DentAdhesion::stored_energy(const Tabulated& law, double r_eff, double ov
   if (!holds(history)) return 0.0;
   if (history[0] == owing) return energy_unit(law, r_eff) * history[1];  // as booked: it is at its depth
   const double per_length = law.per_lambda / r_eff, depth = std::max(normal_history[0] * per_length, first);
-  const AdhesiveDent dent = history[2] != depth ? AdhesiveDent::of(*law.curve, depth, relative_work(r_eff)) : AdhesiveDent::of(history + 2);
+  const AdhesiveDent dent = history[2] != depth ? dent_of(law, r_eff, depth) : AdhesiveDent::of(history + 2);
   return energy_unit(law, r_eff) * dent.energy(std::max(overlap * per_length, dent.x_snap));
 }
 
@@ -192,7 +202,7 @@ double DentAdhesion::pull_off(const Tabulated& law, double r_eff, double depth) 
 {
   if (!(length_of_w > 0.0)) return 0.0;
   const double x_max = std::max(depth * (law.per_lambda / r_eff), first);
-  const AdhesiveDent dent = AdhesiveDent::of(*law.curve, x_max, relative_work(r_eff));
+  const AdhesiveDent dent = dent_of(law, r_eff, x_max);
   const Reversal back = law.curve->reversal(x_max);
   const auto pull = [&](double x) { return dent.free_force(x) - dent.force(x) - (x > 0.0 ? back.force(x) : 0.0); };
   // by sqrt(x - x_snap), in which the snap is smooth
@@ -211,18 +221,18 @@ double DentAdhesion::pull_off(const Tabulated& law, double r_eff, double depth) 
   return law.force_scale * r_eff * r_eff * at(0.5 * (low + high));
 }
 
-AdhesionNumbers DentAdhesion::numbers(const Tabulated& law, double r_eff, double depth, double range) const
+AdhesionNumbers DentAdhesion::numbers(const Tabulated& law, double r_eff, double depth) const
 {
-  AdhesionNumbers now{.W = relative_work(r_eff)};
+  AdhesionNumbers now{.W = relative_work(r_eff), .range = length_of_range * law.mapping.length(law.scale.length)};
   const double R = r_eff * law.scale.length, w = now.W * law.mapping.e_star * law.mapping.length(R);
-  now.tabor = std::cbrt(w * w * R) / (std::pow(law.mapping.e_star_pair(), 2.0 / 3.0) * range);
+  now.tabor = std::cbrt(w * w * R) / (std::pow(law.mapping.e_star_pair(), 2.0 / 3.0) * now.range);
   const Curve& curve = *law.curve;
   const double x = depth * (law.per_lambda / r_eff);
   if (!(x >= curve.onset())) return now;
   const double a = curve.radius(x);
   const double relative_pressure = 4.0 / 3.0 * curve.force(x) / (M_PI * a * a);
   now.pressure = law.mapping.e_star * relative_pressure;
-  now.S = 2.0 * w / (range * now.pressure);
+  now.S = 2.0 * w / (now.range * now.pressure);
   now.chi = now.W / (relative_pressure * relative_pressure * a);
   return now;
 }
@@ -239,12 +249,12 @@ namespace {
   return text;
 }
 
-/// `range`: h_0, m. `undented`: contacts that did not yield are among them, which Tabor's number is about.
-std::string fault_of(const AdhesionNumbers& n, double range, bool undented)
+/// `undented`: contacts that did not yield are among them, which Tabor's number is about.
+std::string fault_of(const AdhesionNumbers& n, bool undented)
 {
-  const double longest = range * n.tabor / AdhesionNumbers::least_tabor, shortest = range * n.S / AdhesionNumbers::largest_S;
+  const double longest = n.range * n.tabor / AdhesionNumbers::least_tabor, shortest = n.range * n.S / AdhesionNumbers::largest_S;
   if (undented && n.tabor < AdhesionNumbers::least_tabor)
-    return sentence("the adhesion range %.3g m is long against the elastic neck (Tabor number %.2g, at least 1): at most %.3g m here", range, n.tabor, longest);
+    return sentence("the adhesion range %.3g m is long against the elastic neck (Tabor number %.2g, at least 1): at most %.3g m here", n.range, n.tabor, longest);
   if (undented && n.S > AdhesionNumbers::largest_S && shortest > longest)
     return sentence("the attraction is %.2g of the contact pressure (at most 0.8), and no range is accepted: the bond is as strong as the material", n.S);
   if (n.S > AdhesionNumbers::largest_S)
@@ -256,25 +266,25 @@ std::string fault_of(const AdhesionNumbers& n, double range, bool undented)
 
 }  // namespace
 
-std::string DentAdhesion::fault(const Tabulated& law, double r_eff, double range, double depth) const
+std::string DentAdhesion::fault(const Tabulated& law, double r_eff, double depth) const
 {
   if (!(length_of_w > 0.0)) return {};
   if (!law.curve->states_unloading_radius()) return "the law file has no contact radius of unloading, which adhesion takes: build it again with mpm table";
-  const AdhesionNumbers n = numbers(law, r_eff, depth, range);
-  return fault_of(n, range, n.S == 0.0);
+  const AdhesionNumbers n = numbers(law, r_eff, depth);
+  return fault_of(n, n.S == 0.0);
 }
 
-std::string DentAdhesion::fault(const Tabulated& law, double r_eff, double range) const
+std::string DentAdhesion::fault(const Tabulated& law, double r_eff) const
 {
-  if (std::string why = fault(law, r_eff, range, 0.0); !(length_of_w > 0.0) || !why.empty()) return why;
-  AdhesionNumbers best = numbers(law, r_eff, 0.0, range);
+  if (std::string why = fault(law, r_eff, 0.0); !(length_of_w > 0.0) || !why.empty()) return why;
+  AdhesionNumbers best = numbers(law, r_eff, 0.0);
   best.S = best.chi = law.curve->onset() < law.curve->end() ? std::numeric_limits<double>::infinity() : 0.0;
   const double end = law.curve->end();
   for (double x = 1.01 * first; x < end; x *= 1.1) {  // beyond the onset, of which rounding makes less
-    const AdhesionNumbers now = numbers(law, r_eff, x * r_eff / law.per_lambda, range);
+    const AdhesionNumbers now = numbers(law, r_eff, x * r_eff / law.per_lambda);
     best.S = std::min(best.S, now.S), best.chi = std::min(best.chi, now.chi);
   }
-  return fault_of(best, range, true);
+  return fault_of(best, true);
 }
 
 }  // namespace granulaw

@@ -30,6 +30,7 @@ struct PowerCubic
 /// its tangent by d(q) = q s(v) = sqrt(2 w dA/dS), A the area of contact and S the stiffness:
 ///     overlap  x_r + span q^4 - d          force  F_free - S d
 /// so that an unloading gives back w A less, exactly. Between x_max - shift and x_max the edge stays where it is: a straight line.
+/// A range of attraction raises w by range_rise() (1 - u).
 struct AdhesiveDent
 {
   double x_max = 0;  ///< 0: none yet
@@ -48,8 +49,12 @@ struct AdhesiveDent
     return dent;
   }
 
-  /// Of the reversal of a slow press at `depth`; below the onset of yield and of elastic bodies the law's own unloading.
-  static AdhesiveDent of(const Curve& curve, double depth, double W);
+  /// Of the reversal of a slow press at `depth`; below the onset of yield and of elastic bodies the law's own unloading. `zone`: length
+  /// over which the edge parts, in the unit of contact radii.
+  static AdhesiveDent of(const Curve& curve, double depth, double W, double zone);
+  /// Rise of a pull-off force by the range of attraction, relative. `zone`: length over which the edge parts over the contact radius.
+  /// Of elastic spheres under linear traction, exact to 0.002 (docs/theory/adhesion.md).
+  static double range_rise(double zone) { return 0.137 * zone / (1.0 + 0.65 * zone); }
 
   /// Force without adhesion.
   double free_force(double x) const
@@ -118,14 +123,15 @@ inline constexpr double usual_adhesion_range = 0.4e-9;
 struct AdhesionNumbers
 {
   double W = 0;      ///< w/(E*_s lambda R*)
+  double range = 0;  ///< h_0, m
   double tabor = 0;  ///< (w^2 R*/(E*^2 h_0^3))^(1/3)
   double S = 0;      ///< sigma_0/p_m; 0: it does not yield
   double chi = 0;    ///< w E*/(p_m^2 a); 0: it does not yield
   double pressure = 0;  ///< p_m, Pa
 
-  /// 95 % of the pull-off force of a dent, relative: a tenth where chi is over 0.03, more as sqrt(1/chi) below; from chi = 0.005 on
-  /// down the quarter by which the solver's own forces scatter (docs/evidence/adhesion.md). Elastic contacts: a tenth, of the range.
-  double pull_off_bound() const { return chi > 0.0 ? std::clamp(0.1 * std::sqrt(0.03 / chi), 0.1, 0.25) : 0.1; }
+  /// 95 % of the pull-off force, relative. Of a dent 0.12 where chi is over 0.01, more as sqrt(1/chi) below, and at most the quarter
+  /// by which the solver's own forces scatter there; of elastic contacts 0.03 (docs/evidence/adhesion.md).
+  double pull_off_bound() const { return chi > 0.0 ? std::clamp(0.12 * std::sqrt(0.01 / chi), 0.12, 0.25) : 0.03; }
 
   static constexpr double largest_S = 0.8, largest_chi = 0.2, least_tabor = 1.0;
 };
@@ -144,19 +150,26 @@ struct DentAdhesion
   static constexpr bool begins_touching = true;
 
   double length_of_w = 0;  ///< w/(E*_s lambda), W R*, in the caller's unit of length
+  double length_of_range = 0;  ///< h_0/lambda, in the caller's unit of length; lambda without the stretch
   double lambda = 0;       ///< with the stretch
   double first = 0;        ///< depth of the dent of a contact that never yielded
 
   DentAdhesion() = default;
-  /// `work`: w of the pair of surfaces, not stretched, in the caller's unit of energy over that of area; 0: no adhesion.
-  DentAdhesion(const Tabulated& law, double work)
+  /// `work`: w of the pair of surfaces, not stretched, in the caller's unit of energy over that of area; 0: no adhesion. `range`: h_0,
+  /// not stretched, in the caller's unit of length.
+  DentAdhesion(const Tabulated& law, double work, double range)
       : length_of_w(work * law.scale.mass / (law.scale.time * law.scale.time) / (law.mapping.e_star * law.mapping.length(law.scale.length))),
+        length_of_range(range / law.mapping.length(1.0)),
         lambda(law.lambda),
         first(std::min(law.curve->onset(), law.curve->end()))
   {
   }
 
   double relative_work(double r_eff) const { return length_of_w / r_eff; }  ///< W
+  AdhesiveDent dent_of(const Tabulated& law, double r_eff, double depth) const
+  {
+    return AdhesiveDent::of(*law.curve, depth, relative_work(r_eff), zone_per_range * length_of_range * length_of_range / (length_of_w * r_eff));
+  }
   /// A quarter beyond that of Johnson, Kendall and Roberts: dents hold up to 1.15 of theirs.
   double reach(double r_eff) const { return 1.25 * 0.75 * std::cbrt(M_PI * M_PI * length_of_w * length_of_w * r_eff) * lambda; }
   static bool holds(const double* history) { return history[0] > 0.0; }
@@ -195,14 +208,14 @@ struct DentAdhesion
   /// N, > 0: the largest pull of a contact that was slowly pressed to `depth` and is slowly drawn apart.
   double pull_off(const Tabulated& law, double r_eff, double depth) const;
 
-  /// Of a dent of this depth; `range`: h_0 in m.
-  AdhesionNumbers numbers(const Tabulated& law, double r_eff, double depth, double range) const;
+  AdhesionNumbers numbers(const Tabulated& law, double r_eff, double depth) const;  ///< of a dent of this depth
   /// A sentence about why these surfaces are refused; empty: they are not. Without a `depth` of all dents that the law has: refused
   /// where the law holds for none.
-  std::string fault(const Tabulated& law, double r_eff, double range, double depth) const;
-  std::string fault(const Tabulated& law, double r_eff, double range) const;
+  std::string fault(const Tabulated& law, double r_eff, double depth) const;
+  std::string fault(const Tabulated& law, double r_eff) const;
 
  private:
+  static constexpr double zone_per_range = 0.25 * 1.46;  ///< 1.46 w E*/sigma_0^2 over h_0^2 E*/w
   static constexpr double booked = 1.0, owing = 2.0;  ///< of `attached`: it went deeper, and the loss of its attraction is not booked
 
   void deepen(const Tabulated& law, double r_eff, double* history, Ledger& ledger) const

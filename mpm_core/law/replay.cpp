@@ -60,11 +60,11 @@ Replay replay(const NormalForce& law, double radiation, double effective_mass, d
 }
 
 /// With attraction between the surfaces. Work that the contact gives back while it approaches counts against the work put in.
-Replay replay_adhesive(const PairLaw& pair, double r_eff, double effective_mass, double mass, double velocity, double duration, int steps_per_contact, double work)
+Replay replay_adhesive(const PairLaw& pair, double r_eff, double effective_mass, double mass, double velocity, double duration, int steps_per_contact, const Attraction& attraction)
 {
   using Element = ContactElement<Tabulated, Frictionless, DentAdhesion>;
   const Tabulated law(pair, pair.measure(), {});
-  const Element element{law, {}, 0, 0, DentAdhesion(law, work)};
+  const Element element{law, {}, 0, 0, DentAdhesion(law, attraction.work, attraction.range)};
   std::array<double, Element::values> history{};
   Ledger ledger;
   Replay result;
@@ -117,7 +117,7 @@ Replay replay_collision(const PairLaw& pair, double r_eff, double effective_mass
   const double impact_overlap = pair.impact_overlap(r_eff, effective_mass, velocity);
   double deepest = 0;  // of the law
   const auto respond = [&](double x) { return pair.evaluate(r_eff, x, deepest, impact_overlap); };
-  Replay result = attraction.work > 0 ? replay_adhesive(pair, r_eff, effective_mass, moved, velocity, duration, steps_per_contact, attraction.work) : replay(
+  Replay result = attraction.work > 0 ? replay_adhesive(pair, r_eff, effective_mass, moved, velocity, duration, steps_per_contact, attraction) : replay(
       [&](double delta, double) {
         const Answer now = respond(overlap_of_law(delta, body.compliance, deepest, respond));
         deepest = now.delta_max;

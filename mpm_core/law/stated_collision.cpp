@@ -73,7 +73,7 @@ StatedCollision collide(const Law& law, const ChosenPair& pair, double velocity,
   if (attraction.work > 0) {
     if (body.compliance > 0) fail("--work-of-adhesion", "cannot go with --impact-body-compliance");
     const Tabulated normal(pair.law, pair.law.measure(), {});
-    const std::string why = DentAdhesion(normal, attraction.work).fault(normal, pair.r_eff, attraction.range, result.replay.delta_max);
+    const std::string why = DentAdhesion(normal, attraction.work, attraction.range).fault(normal, pair.r_eff, result.replay.delta_max);
     if (!why.empty()) fail("--work-of-adhesion", why);
   }
   const double allowed = (1 + overlap_margin) * pair.limit();

@@ -67,8 +67,9 @@ def dents(asked, folder):
     pressure, radius = runs.dent(free)
     for chi, strength in zip(cases[::2], cases[1::2]):
         work = chi * pressure**2 * radius
-        found = runs.press(depth, *attraction(work, 2 * work / (strength * pressure)))
-        print(f"{stiffness:g},{hardening:g},{depth:g},{work:.4g},{chi:g},{found['pull_off_N'] / free['force_max_N']:.5g}  # S {strength:g}, {cost(found)}", flush=True)
+        reach = 2 * work / (strength * pressure)
+        found = runs.press(depth, *attraction(work, reach))
+        print(f"{stiffness:g},{hardening:g},{depth:g},{free['force_max_N'] / (UNIT * RADIUS**2):.5g},{work:.4g},{chi:g},{reach:.4g},{found['pull_off_N'] / free['force_max_N']:.5g},{asked.resolution}  # S {strength:g}, {cost(found)}", flush=True)
 
 
 def elastic(asked, folder):

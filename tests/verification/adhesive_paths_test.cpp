@@ -169,8 +169,8 @@ TEST(RepeatedPressSlow, FollowsTheLaw)
   const PairLaw pair{{&body.curve, PairMapping::rigid_partner(1.0)}, &body};
   const Tabulated law{pair, pair.measure(), {}};
   using Element = ContactElement<Tabulated, Frictionless, DentAdhesion>;
-  const Element element{law, {}, 0, 0, DentAdhesion(law, work)};
-  const AdhesiveDent dent = AdhesiveDent::of(body.curve, depth, work);
+  const Element element{law, {}, 0, 0, DentAdhesion(law, work, range)};
+  const AdhesiveDent dent = element.beside.dent_of(law, 1.0, depth);
   const double half_open = dent.x_snap + 0.15 * (depth - dent.x_snap), open = 0.4 * depth;
 
   auto samples = pressed({work, range}, {{depth, 80}, {half_open, 50}, {depth, 50}, {open, 80}, {depth, 80}, {open, 80}}, 30, 0.5);

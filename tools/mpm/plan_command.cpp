@@ -119,11 +119,11 @@ std::optional<PairAdhesion> adhesion_of(const PlannedDeck& d, const deck::PairPl
     const BodyLaw body = law_from(*atlas, p.meeting.yields, {.depth = std::max(0.1, std::min(0.5, 1.05 * p.depth))});
     const PairLaw pair{{&body.curve, p.meeting.mapping}, &body};
     const Tabulated law(pair, pair.measure(), {});
-    const DentAdhesion piece(law, attraction.work);
+    const DentAdhesion piece(law, attraction.work, attraction.range);
     PairAdhesion found;
     found.bond = piece.smooth_pull_off(law, r_eff) / (d.plan.mass_min * g);
-    found.numbers = piece.numbers(law, r_eff, p.overlap * r_eff, attraction.range);
-    found.refused = piece.fault(law, r_eff, attraction.range);
+    found.numbers = piece.numbers(law, r_eff, p.overlap * r_eff);
+    found.refused = piece.fault(law, r_eff);
     // of elastic spheres, Johnson, Kendall and Roberts; a dent sticks at higher speeds
     const double w = attraction.work, e_star = p.meeting.mapping.e_star_pair();
     double low = std::sqrt(2 * 7.09 * std::cbrt(std::pow(w, 5) * std::pow(r_eff, 4) / (e_star * e_star)) / m_eff), high = 100 * low;
