@@ -189,9 +189,9 @@ TEST(RepeatedPressSlow, FollowsTheLaw)
   // a dent that parted holds as much as before; the law's pull-off force is 2 % low
   EXPECT_NEAR(part.pull / part.pull_by_law, 1, 0.05);
   EXPECT_NEAR(part_again.pull / part.pull, 1, 0.01);
-  // parting and touching again loses a tenth of w A, by the law a quarter
+  // parting and touching again loses a tenth of w A, by the law, whose surfaces snap together at no gap, a third
   EXPECT_NEAR((part.work + touch.work) / (work * area), 0.09, 0.03);
-  EXPECT_NEAR((part.by_law + touch.by_law) / (work * area), 0.26, 0.03);
+  EXPECT_NEAR((part.by_law + touch.by_law) / (work * area), 0.31, 0.03);
 }
 
 }  // namespace granulaw::adhesive_paths_test
