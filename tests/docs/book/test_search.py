@@ -32,7 +32,7 @@ QUESTIONS = (
     ("Moisture and temperature?", ("moisture", "damp powder", "temperature dependence"), "guide/limits", "A law holds for the material in the state"),
     ("Viscoelasticity?", ("viscoelasticity", "viscoelastic", "creep"), "guide/limits", "no relaxation"),
     ("Cohesion?", ("cohesion", "my particles are cohesive", "cohesive powder", "surface energy", "sticking"), "guide/my-powder-sticks",
-     "one more number than for the law: the surface energy"),
+     "One more number is needed: the surface energy"),
     ("Adhesion?", ("adhesion", "JKR"), "guide/limits", "cohesion dent adds adhesion"),
     ("How do I do a die compaction?", ("how do I do a die compaction", "die compaction", "press tablets", "tabletting"), "guide/pressing", "Say confinement on in the pair style"),
     ("Which stretch?", ("which stretch", "stretch", "larger time step"), "guide/plan", "mpm stretch prints the largest"),
