@@ -174,7 +174,10 @@ double energy_unit(const Tabulated& law, double r_eff) { return law.force_scale 
 
 void DentAdhesion::turn(const Tabulated& law, const ContactMotion& m, double depth, double* history, Ledger& ledger) const
 {
-  if (history[2] != depth) std::ranges::copy(dent_of(law, m.r_eff, depth).kept(), history + 2);
+  if (history[2] != depth) {
+    const auto kept = dent_of(law, m.r_eff, depth).kept();
+    std::copy(kept.begin(), kept.end(), history + 2);
+  }
   if (history[0] != owing || !m.advances) return;
   const double energy = AdhesiveDent::of(history + 2).energy(depth);
   ledger[Mechanism::adhesion] += energy_unit(law, m.r_eff) * (history[1] - energy);
