@@ -37,7 +37,7 @@ TEST(RanksDeathTest, ACommandThatSharesNoRunsWantsOneProcess)
     launch("0", "2");
     return sentence_of([] { join_ranks("plan", false); });
   };
-  EXPECT_EXIT(end(joined() == "mpm plan: runs in one process: start it without mpirun (mpm table shares its "
+  EXPECT_EXIT(end(joined() == "plan: runs in one process: start it without mpirun (mpm table shares its "
                               "runs among ranks): found 2 processes, allowed is 1"),
               testing::ExitedWithCode(0), "");
 }
