@@ -54,6 +54,33 @@ void Pull::visit_state(StateArchive& a)
   a.value(taken_), a.value(work_);
 }
 
+Vector3 Pull::velocity_before(const Body& body, int marker, double kick)
+{
+  const Reference& reference = body.reference();
+  const Markers& surface = reference.surface;
+  Vector3 v = carried(body.v_i, surface, marker);
+  for (int k = 0; k < surface.corners; ++k) {
+    const int i = surface.node(marker, k);
+    const double share = kick * surface.weights(marker)[k];
+    for (int c = 0; c < body.f_i.components; ++c) v[body.f_i.direction(c)] -= share * reference.inverse_mass_i(i, c) * body.f_i(i, c);
+  }
+  return v;
+}
+
+void Pull::push_marker(Body& body, int marker, const Vector3& impulse, double kick)
+{
+  const Reference& reference = body.reference();
+  const Markers& surface = reference.surface;
+  for (int k = 0; k < surface.corners; ++k) {
+    const int i = surface.node(marker, k);
+    for (int c = 0; c < body.f_i.components; ++c) {
+      const double p = surface.weights(marker)[k] * impulse[body.f_i.direction(c)];
+      body.f_i(i, c) += p / kick;
+      body.v_i(i, c) += p * reference.inverse_mass_i(i, c);
+    }
+  }
+}
+
 double RowContact::correct(std::span<Body> bodies, double kick, double dt)
 {
   const double pulled = pull(bodies, kick);

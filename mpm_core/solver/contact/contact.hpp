@@ -34,6 +34,10 @@ class Pull
   void visit_state(StateArchive& archive);
 
  protected:
+  /// Velocity of a marker, less what its nodes' forces added over `kick`.
+  static Vector3 velocity_before(const Body& body, int marker, double kick);
+  /// Adds an impulse to the velocities of a marker's nodes, and to their forces what it is over the kick.
+  static void push_marker(Body& body, int marker, const Vector3& impulse, double kick);
   double taken_ = 0, work_ = 0;
 };
 

@@ -49,45 +49,18 @@ double PlanePull::pull(std::span<Body> bodies, double kick)
   double first = 0;
   for (const Pulled& p : pulled_) {
     const Plane& plane = planes_->planes()[p.plane];
-    push(body, p.marker, p.impulse * plane.normal, kick);
+    push_marker(body, p.marker, p.impulse * plane.normal, kick);
     planes_->tally(p.plane, p.impulse * plane.normal, p.place);
     if (p.plane == 0) first += plane.copies * p.impulse;
   }
   return first;
 }
 
-/// Velocity of a marker before the kick.
-Vector3 PlanePull::velocity_before(const Body& body, int marker, double kick) const
-{
-  const Reference& reference = body.reference();
-  Vector3 v = carried(body.v_i, reference.surface, marker);
-  for (int k = 0; k < cell_nodes; ++k) {
-    const int i = reference.surface.node(marker, k);
-    const double share = kick * reference.surface.weights(marker)[k];
-    for (int d = 0; d < 3; ++d) v[d] -= share * reference.inverse_mass_i(i, d) * body.f_i(i, d);
-  }
-  return v;
-}
-
-/// Adds an impulse to the velocities of a marker's nodes, and to their forces what it is over the kick.
-void PlanePull::push(Body& body, int marker, const Vector3& impulse, double kick) const
-{
-  const Reference& reference = body.reference();
-  for (int k = 0; k < cell_nodes; ++k) {
-    const int i = reference.surface.node(marker, k);
-    const double share = reference.surface.weights(marker)[k];
-    for (int d = 0; d < 3; ++d) {
-      body.f_i(i, d) += share * impulse[d] / kick;
-      body.v_i(i, d) += share * impulse[d] * reference.inverse_mass_i(i, d);
-    }
-  }
-}
-
 void PlanePull::account(std::span<const Body> bodies)
 {
   for (const Pulled& p : pulled_) {
     const Plane& plane = planes_->planes()[p.plane];
-    const double now = plane.normal.dot(carried(bodies.front().v_i, bodies.front().reference().surface, p.marker));
+    const double now = plane.normal.dot(velocity_before(bodies.front(), p.marker, 0));
     work_ += p.impulse * plane.velocity;
     taken_ += p.impulse * (plane.velocity - 0.5 * (p.before + now));
   }

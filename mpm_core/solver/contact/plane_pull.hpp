@@ -23,8 +23,6 @@ class PlanePull : public Pull
     double impulse, before;  ///< along the plane's normal; velocity at the start of the step
   };
   double area_now(const Body& body, int marker, const Vector3& normal) const;
-  Vector3 velocity_before(const Body& body, int marker, double kick) const;
-  void push(Body& body, int marker, const Vector3& impulse, double kick) const;
 
   Planes* planes_;
   Attraction attraction_;

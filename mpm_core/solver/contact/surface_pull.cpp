@@ -5,39 +5,6 @@
 
 namespace granulaw {
 
-namespace {
-
-/// Velocity of a marker, less what the nodes' forces added over `kick`.
-Vector3 velocity(const Body& body, int marker, double kick)
-{
-  const Reference& reference = body.reference();
-  const Markers& surface = reference.surface;
-  Vector3 sum = Vector3::Zero();
-  for (int k = 0; k < surface.corners; ++k) {
-    const int i = surface.node(marker, k);
-    for (const int c : {0, 1})
-      sum[2 * c] += surface.weights(marker)[k] * (body.v_i(i, c) - kick * reference.inverse_mass_i(i, c) * body.f_i(i, c));
-  }
-  return sum;
-}
-
-/// Adds a force to the nodes that carry a marker, `share` of it.
-void push_marker(Body& body, int marker, double share, const Vector3& force, double kick)
-{
-  const Reference& reference = body.reference();
-  const Markers& surface = reference.surface;
-  for (int k = 0; k < surface.corners; ++k) {
-    const int i = surface.node(marker, k);
-    for (const int c : {0, 1}) {
-      const double f = share * surface.weights(marker)[k] * force[2 * c];
-      body.f_i(i, c) += f;
-      body.v_i(i, c) += kick * reference.inverse_mass_i(i, c) * f;
-    }
-  }
-}
-
-}  // namespace
-
 SurfacePull::SurfacePull(const Attraction& attraction, std::span<const Body> bodies) : attraction_(attraction)
 {
   pulled_.reserve(static_cast<std::size_t>(bodies.front().reference().surface.count));
@@ -46,20 +13,21 @@ SurfacePull::SurfacePull(const Attraction& attraction, std::span<const Body> bod
 double SurfacePull::separation(std::span<const Body> bodies, const Pulled& point, double kick)
 {
   const Opposite::Place& across = point.across;
-  const Vector3 near = velocity(bodies[0], point.marker, kick);
+  const Vector3 near = velocity_before(bodies[0], point.marker, kick);
   if (bodies.size() < 2) return near[2];
-  const Vector3 far = (1 - across.t) * velocity(bodies[1], across.segment, kick) + across.t * velocity(bodies[1], across.segment + 1, kick);
+  const Vector3 far = (1 - across.t) * velocity_before(bodies[1], across.segment, kick) + across.t * velocity_before(bodies[1], across.segment + 1, kick);
   return near[2] + far[2] + across.slope * (near[0] - far[0]);
 }
 
-void SurfacePull::push(std::span<Body> bodies, const Pulled& point, double force, double kick)
+void SurfacePull::push(std::span<Body> bodies, const Pulled& point, double kick)
 {
   const Opposite::Place& across = point.across;
-  push_marker(bodies[0], point.marker, 1, {force * across.slope, 0, force}, kick);
+  const double along = point.impulse * across.slope;
+  push_marker(bodies[0], point.marker, {along, 0, point.impulse}, kick);
   if (bodies.size() < 2) return;
-  const Vector3 mirrored(-force * across.slope, 0, force);
-  push_marker(bodies[1], across.segment, 1 - across.t, mirrored, kick);
-  push_marker(bodies[1], across.segment + 1, across.t, mirrored, kick);
+  const Vector3 mirrored(-along, 0, point.impulse);
+  push_marker(bodies[1], across.segment, (1 - across.t) * mirrored, kick);
+  push_marker(bodies[1], across.segment + 1, across.t * mirrored, kick);
 }
 
 double SurfacePull::pull(std::span<Body> bodies, double kick)
@@ -82,7 +50,7 @@ double SurfacePull::pull(std::span<Body> bodies, double kick)
     inner = outer, x = next;
   }
   double total = 0;
-  for (const Pulled& p : pulled_) push(bodies, p, p.impulse / kick, kick), total += p.impulse;
+  for (const Pulled& p : pulled_) push(bodies, p, kick), total += p.impulse;
   return total;
 }
 

@@ -26,8 +26,8 @@ class SurfacePull : public Pull
   };
   /// Rate of its gap, less what the nodes' forces added over `kick`.
   static double separation(std::span<const Body> bodies, const Pulled& point, double kick);
-  /// Adds a force along the gap to the nodes that carry a pulled point, and those across it.
-  static void push(std::span<Body> bodies, const Pulled& point, double force, double kick);
+  /// Adds its impulse along the gap to the nodes that carry a pulled point, and to those across it.
+  static void push(std::span<Body> bodies, const Pulled& point, double kick);
 
   Attraction attraction_;
   std::vector<Pulled> pulled_;  // of this step
